@@ -1,0 +1,178 @@
+"""The canonical text of the files under ``spec/``, and the walks over them that their tests share.
+
+``python -m tests.spec.lint`` names the files that are not canonical; with ``--fix`` it rewrites them.
+
+Laws: a data file is one JSON object with a top-level key a line and a record a line; keys stand in the order of the
+schema; a schema is indented by two. Nothing here knows what a field means.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+Json: TypeAlias = Any
+Record: TypeAlias = dict[str, Any]
+
+SPEC = Path(__file__).parents[2] / "spec"
+
+VECTOR_SCHEMAS = {
+    "vectors/dcon": "dcon_vectors",
+    "vectors/readings": "reading_vectors",
+    "vectors/readings/legacy.json": "legacy_vectors",
+    "vectors/frames/checksums.json": "checksum_vectors",
+    "vectors/frames/split.json": "split_vectors",
+}
+"""Which schema the vectors of a file, or else of its folder, have; a table has the schema of its own name."""
+
+
+def data_files() -> list[Path]:
+    """Every table, the errata and every vector file."""
+    return sorted(path for path in SPEC.rglob("*.json") if path.parent != SPEC / "schema")
+
+
+def schema_files() -> list[Path]:
+    """Every schema."""
+    return sorted((SPEC / "schema").glob("*.json"))
+
+
+def vector_files(folder: str = "") -> list[Path]:
+    """Every file under ``spec/vectors/`` and the folder or file named."""
+    root = SPEC / "vectors" / folder
+    return [root] if root.is_file() else sorted(root.rglob("*.json"))
+
+
+def name(path: Path) -> str:
+    """The path under ``spec/``, with slashes."""
+    return path.relative_to(SPEC).as_posix() if path.is_relative_to(SPEC) else path.name
+
+
+def load(path: Path) -> Record:
+    """Read one file, refusing an object that names a key twice."""
+    data: Record = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
+    return data
+
+
+def _unique(pairs: list[tuple[str, Json]]) -> Record:
+    record = dict(pairs)
+    if len(record) < len(pairs):
+        keys = [key for key, _ in pairs]
+        raise ValueError(f"a key twice in {keys}")
+    return record
+
+
+def rows(table: str) -> list[Record]:
+    """The rows of one table, by its name without folder and ending; ``errata`` too."""
+    path = SPEC / f"{table}.json" if table == "errata" else SPEC / "tables" / f"{table}.json"
+    found: list[Record] = load(path)["rows"]
+    return found
+
+
+def vectors(folder: str = "") -> Iterator[tuple[Path, Record]]:
+    """Every vector under the folder, or in the file, with the file it stands in."""
+    for path in vector_files(folder):
+        for vector in load(path)["vectors"]:
+            yield path, vector
+
+
+def records(data: Mapping[str, Json]) -> list[Record]:
+    """The rows or vectors of one file."""
+    found: list[Record] = data["vectors"] if "vectors" in data else data["rows"]
+    return found
+
+
+def schema_path(path: Path) -> Path:
+    """The file with the schema of a data file."""
+    own = name(path)
+    stem = VECTOR_SCHEMAS.get(own) or VECTOR_SCHEMAS.get(name(path.parent)) or path.stem
+    return SPEC / "schema" / f"{stem}.json"
+
+
+def canonical(data: Mapping[str, Json]) -> str:
+    """The one way to write a file: schemas indented, everything else a record a line."""
+    if "$schema" in data:
+        return json.dumps(data, ensure_ascii=False, indent=2) + "\n"
+    entries = [f"  {_line(key)}: {_value(value)}" for key, value in data.items()]
+    return "{\n" + ",\n".join(entries) + "\n}\n"
+
+
+def _line(value: Json) -> str:
+    return json.dumps(value, ensure_ascii=False, separators=(", ", ": "))
+
+
+def _value(value: Json) -> str:
+    if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
+        return "[\n" + ",\n".join(f"    {_line(item)}" for item in value) + "\n  ]"
+    return _line(value)
+
+
+def ordered(value: Json, schema: Mapping[str, Json], root: Mapping[str, Json] | None = None) -> Json:
+    """The same value with the keys of every object in the order of its schema; a key that it lacks comes last."""
+    root = schema if root is None else root
+    if isinstance(value, list):
+        items = _resolve(value, schema, root).get("items", {})
+        return [ordered(item, items, root) for item in value]
+    if isinstance(value, dict):
+        properties = _resolve(value, schema, root).get("properties", {})
+        keys = [key for key in properties if key in value] + [key for key in value if key not in properties]
+        return {key: ordered(value[key], properties.get(key, {}), root) for key in keys}
+    return value
+
+
+def _resolve(value: Json, schema: Mapping[str, Json], root: Mapping[str, Json]) -> Mapping[str, Json]:
+    """The schema that states the properties or items of this value, behind references and alternatives."""
+    if "$ref" in schema:
+        return _resolve(value, root["$defs"][schema["$ref"].rpartition("/")[2]], root)
+    for branch in schema.get("anyOf", []) + schema.get("oneOf", []):
+        found = _resolve(value, branch, root)
+        if _fits(value, found):
+            return found
+    return schema
+
+
+def _fits(value: Json, schema: Mapping[str, Json]) -> bool:
+    if isinstance(value, list):
+        return "items" in schema
+    properties = schema.get("properties", {})
+    return set(value) == set(properties) and all(
+        properties[key].get("const", item) == item for key, item in value.items()
+    )
+
+
+def canonical_file(path: Path) -> str:
+    """What the file should say, byte for byte."""
+    data = load(path)
+    if path.parent != SPEC / "schema":
+        data = ordered(data, load(schema_path(path)))
+    return canonical(data)
+
+
+def fix(path: Path) -> bool:
+    """Rewrite one file canonically; tell whether it was not."""
+    text = canonical_file(path)
+    if path.read_bytes() == text.encode():
+        return False
+    path.write_bytes(text.encode())
+    return True
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Check every file, or rewrite it; the exit status is the number of files that are not canonical."""
+    paths = data_files() + schema_files()
+    if "--fix" in arguments:
+        for path in filter(fix, paths):
+            sys.stdout.write(f"{name(path)} rewritten\n")
+        return 0
+    wrong = [path for path in paths if path.read_bytes() != canonical_file(path).encode()]
+    for path in wrong:
+        sys.stdout.write(f"{name(path)} is not canonical\n")
+    return len(wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
