@@ -29,7 +29,7 @@ TYPES = {row["code"]: row for row in lint.rows("type_codes")}
 COMMANDS = {row["section"]: row for row in lint.rows("dcon_commands")}
 COMMAND_NAMES = {row["name"]: row for row in COMMANDS.values()}
 PREFIXES = {
-    "dcon_vectors": "dcon",
+    "dcon_vectors": r"dcon-2(\.\d+)?",
     "reading_vectors": "reading",
     "legacy_vectors": "legacy",
     "checksum_vectors": "checksum",
@@ -315,7 +315,7 @@ def test_vector_ids_are_unique() -> None:
 @pytest.mark.parametrize("path", VECTOR_FILES)
 def test_a_vector_id_is_a_name_and_not_a_position(path: Path) -> None:
     prefix = PREFIXES[lint.schema_path(path).stem]
-    shape = re.compile(rf"{prefix}(-2(\.\d+)?)?-(?!\d{{1,3}}$)[A-Za-z0-9.+-]+")
+    shape = re.compile(rf"{prefix}-(?!\d{{1,3}}$)[A-Za-z0-9.+-]+")
 
     assert [vector["id"] for vector in lint.records(lint.load(path)) if not shape.fullmatch(vector["id"])] == []
 
