@@ -1,0 +1,46 @@
+"""The protocols of the ICP DAS I-7000 / M-7000 analog-input modules as pure functions on immutable values.
+
+The vocabulary is here; the protocols are the modules `i7000.dcon` and, for M-7000 modules, Modbus RTU.
+"""
+
+from i7000.errors import DecodeError, EncodeError, Fault, I7000Error, Noise
+from i7000.models import Firmware, Model, Profile, series
+from i7000.readings import Reading, Status
+from i7000.settings import (
+    BaudRate,
+    CharacterFormat,
+    CjcUpdate,
+    DataFormat,
+    Filter,
+    LineSettings,
+    ModbusDataFormat,
+    Protocol,
+    ReportSettings,
+)
+from i7000.type_codes import MIXED, TypeCode, Unit
+
+__all__ = [
+    "MIXED",
+    "BaudRate",
+    "CharacterFormat",
+    "CjcUpdate",
+    "DataFormat",
+    "DecodeError",
+    "EncodeError",
+    "Fault",
+    "Filter",
+    "Firmware",
+    "I7000Error",
+    "LineSettings",
+    "ModbusDataFormat",
+    "Model",
+    "Noise",
+    "Profile",
+    "Protocol",
+    "Reading",
+    "ReportSettings",
+    "Status",
+    "TypeCode",
+    "Unit",
+    "series",
+]

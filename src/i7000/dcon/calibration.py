@@ -1,0 +1,156 @@
+"""Calibration (manual 1.10, 2.5, 2.6, 2.7, 2.8, 2.9, 2.27, 2.28, 2.31).
+
+Laws: a calibration command is refused unless `SetCalibrationEnabled` came before it. The digit after the address means
+opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and ``1`` span for single channels of the
+7019 series, and ``0`` span for those of the M-7017mC-16; the model decides, never the characters (E7, E9).
+"""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, check_channel
+from i7000.models import Profile
+
+__all__ = [
+    "CalibrateChannelSpan",
+    "CalibrateChannelZero",
+    "CalibrateCurrentChannelSpan",
+    "CalibrateInternally",
+    "CalibrateSpan",
+    "CalibrateZero",
+    "ReloadDefaultCalibration",
+    "SetCalibrationEnabled",
+]
+
+
+class CalibrateSpan(Command[Acknowledged]):
+    """Calibrate the span, with the span signal applied.
+
+    Wire: ``$AA0`` -> ``!AA``
+    Models: 7017 and 7018 series.
+    Manual: 2.5, 1.10; E9, E34.
+    """
+
+    syntax = "$AA0"
+    section = "2.5"
+    title = "span calibration of the whole module"
+
+
+class CalibrateZero(Command[Acknowledged]):
+    """Calibrate the zero, with the zero signal applied.
+
+    Wire: ``$AA1`` -> ``!AA``
+    Models: 7017 and 7018 series.
+    Manual: 2.6, 1.10; E9, E34.
+    """
+
+    syntax = "$AA1"
+    section = "2.6"
+    title = "zero calibration of the whole module"
+
+
+@frozen
+class CalibrateCurrentChannelSpan(Command[Acknowledged]):
+    """Calibrate the span of one current input, with the span signal applied.
+
+    Wire: ``$AA0Ci`` -> ``!AA``
+    Models: M-7017mC-16; the same characters are `CalibrateChannelZero` for the 7019 series.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.7, 1.10; E7, E9.
+    """
+
+    syntax = "$AA0Ci"
+    section = "2.7"
+    title = "span calibration of single current inputs"
+
+    channel: layout.ChannelI
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)
+
+
+@frozen
+class CalibrateChannelZero(Command[Acknowledged]):
+    """Calibrate the zero of one channel, with the zero signal applied.
+
+    Wire: ``$AA0Ci`` -> ``!AA``
+    Time: about 16 s with firmware up to B2.6.
+    Models: 7019 series; the same characters are `CalibrateCurrentChannelSpan` for the M-7017mC-16.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.8, 1.10; E7, E9.
+    """
+
+    syntax = "$AA0Ci"
+    section = "2.8"
+    title = "zero calibration of single channels"
+
+    channel: layout.ChannelI
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)
+
+
+@frozen
+class CalibrateChannelSpan(Command[Acknowledged]):
+    """Calibrate the span of one channel, with the span signal applied.
+
+    Wire: ``$AA1Ci`` -> ``!AA``
+    Time: about 16 s with firmware up to B2.6.
+    Models: 7019 series.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.9, 1.10; E9.
+    """
+
+    syntax = "$AA1Ci"
+    section = "2.9"
+    title = "span calibration of single channels"
+
+    channel: layout.ChannelI
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)
+
+
+class CalibrateInternally(Command[Acknowledged]):
+    """Calibrate the module against itself.
+
+    Wire: ``$AAS0`` -> ``!AA``
+    Models: 7019 series.
+    Manual: 2.27.
+    """
+
+    syntax = "$AAS0"
+    section = "2.27"
+    title = "internal calibration"
+
+
+class ReloadDefaultCalibration(Command[Acknowledged]):
+    """Load the factory's calibration, the internal one included.
+
+    Wire: ``$AAS1`` -> ``!AA``
+    Time: about 3 s.
+    Models: M-7017mC-16 and 7019 series.
+    Manual: 2.28; E103.
+    """
+
+    syntax = "$AAS1"
+    section = "2.28"
+    title = "default calibration to reload"
+
+
+@frozen
+class SetCalibrationEnabled(Command[Acknowledged]):
+    """Allow or forbid the calibration commands.
+
+    Wire: ``~AAEV`` -> ``!AA``
+    Manual: 2.31, 1.10; E10, E33.
+    """
+
+    syntax = "~AAEV"
+    section = "2.31"
+    title = "calibration switch"
+
+    enabled: layout.FlagV = field(kw_only=True)

@@ -1,0 +1,416 @@
+"""Messages <-> frames, for a profile: the functions that `i7000.dcon` is about.
+
+Laws: `encode` raises nothing but `EncodeError`, the decoders nothing but `DecodeError`; decoding what was encoded gives
+the message back. A frame that any module could have sent or been sent decodes, even if this module would refuse it:
+`encode` is where a channel, type or limit is held against the model.
+"""
+
+from collections.abc import Iterable
+from functools import cache
+from itertools import product
+from typing import Any, TypeVar
+
+from attrs import evolve
+
+from i7000.dcon.calibration import (
+    CalibrateChannelSpan,
+    CalibrateChannelZero,
+    CalibrateCurrentChannelSpan,
+    CalibrateInternally,
+    CalibrateSpan,
+    CalibrateZero,
+    ReloadDefaultCalibration,
+    SetCalibrationEnabled,
+)
+from i7000.dcon.cold_junction import (
+    ReadCjcEnabled,
+    ReadCjcOffset,
+    ReadCjcTemperature,
+    ReadCjcUpdate,
+    SetCjcEnabled,
+    SetCjcOffset,
+    SetCjcUpdate,
+)
+from i7000.dcon.command import Broadcast, Command, Message, Refused, Response
+from i7000.dcon.configuration import (
+    ChannelTypeCode,
+    ReadChannelTypeCode,
+    ReadConfiguration,
+    SetChannelTypeCode,
+    SetConfiguration,
+)
+from i7000.dcon.frame import COMMAND_LEADS, LONGEST_FRAME, RESPONSE_LEADS, seal, unseal
+from i7000.dcon.identity import (
+    ReadFirmwareVersion,
+    ReadModuleName,
+    ReadProtocol,
+    SetModuleName,
+    SetProtocol,
+    SetSoftInitTimeout,
+    SoftInit,
+)
+from i7000.dcon.inputs import (
+    AnalogInput,
+    AnalogInputs,
+    AnalogInputsHex,
+    ReadAnalogInput,
+    ReadAnalogInputs,
+    ReadAnalogInputsHex,
+    ReadChannelMask,
+    ReadConnectingMode,
+    ReadDiagnostics,
+    SetChannelMask,
+    SetConnectingMode,
+)
+from i7000.dcon.open_wire import ReadOpenWireDetection, SetOpenWireDetection
+from i7000.dcon.sampling import ReadSynchronizedData, SynchronizedData, SynchronizedSampling
+from i7000.dcon.watchdog import (
+    HostOk,
+    ReadHostWatchdogStatus,
+    ReadHostWatchdogTimeout,
+    ResetHostWatchdogStatus,
+    SetHostWatchdogTimeout,
+)
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.models import Firmware, Model, Profile, series
+from i7000.readings import Reading, decode_field, decode_fields, encode_field
+from i7000.settings import DataFormat
+
+__all__ = [
+    "COMMANDS",
+    "AnyCommand",
+    "candidates",
+    "decode_command",
+    "decode_response",
+    "encode",
+    "fields",
+    "longest_response",
+    "pause_after",
+    "reading",
+    "readings",
+    "response_candidates",
+]
+
+AnyCommand = Command[Any] | Broadcast
+"""What a host sends."""
+
+COMMANDS: tuple[type[AnyCommand], ...] = (
+    SetConfiguration,  # 2.1
+    SynchronizedSampling,
+    ReadAnalogInputs,
+    ReadAnalogInput,
+    CalibrateSpan,  # 2.5
+    CalibrateZero,
+    CalibrateCurrentChannelSpan,
+    CalibrateChannelZero,
+    CalibrateChannelSpan,
+    ReadConfiguration,  # 2.10
+    ReadCjcTemperature,
+    ReadSynchronizedData,
+    SetChannelMask,
+    ReadChannelMask,
+    SetChannelTypeCode,  # 2.15
+    ReadChannelTypeCode,
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadAnalogInputsHex,
+    ReadCjcUpdate,  # 2.20
+    SetCjcUpdate,
+    ReadDiagnostics,
+    ReadFirmwareVersion,
+    ReadModuleName,
+    ReadProtocol,  # 2.25
+    SetProtocol,
+    CalibrateInternally,
+    ReloadDefaultCalibration,
+    ReadCjcEnabled,
+    SetCjcEnabled,  # 2.30
+    SetCalibrationEnabled,
+    SoftInit,
+    SetModuleName,
+    SetSoftInitTimeout,
+    HostOk,  # 2.35
+    ReadHostWatchdogStatus,
+    ResetHostWatchdogStatus,
+    ReadHostWatchdogTimeout,
+    SetHostWatchdogTimeout,
+    ReadOpenWireDetection,  # 2.40
+    SetOpenWireDetection,
+    ReadConnectingMode,
+    SetConnectingMode,
+)
+"""Every command, in the order of the manual's sections 2.1 to 2.43."""
+
+R = TypeVar("R", bound=Response)
+
+
+def _key(text: str) -> str:
+    """What commands are sorted by: the leading character, and the one after the address where that tells them apart."""
+    return text[0] + text[3:4] if text[0] in "$~@" else text[0]
+
+
+_BY_KEY: dict[str, tuple[type[AnyCommand], ...]] = {
+    key: tuple(command for command in COMMANDS if _key(command.syntax) == key)
+    for key in {_key(command.syntax) for command in COMMANDS}
+}
+
+
+def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
+    r"""Write a command, broadcast or response as a frame.
+
+    Special: with `force` it is written even if the module does not have it or would refuse it: for those who test
+        modules.
+    Errors: `EncodeError` that tells the reason.
+    Manual: 2.
+
+    >>> encode(ReadConfiguration(0x01), Profile(Model.I_7018, checksum=True))
+    b'$012B7\r'
+    """
+    if not force:
+        if message.section in profile.refused:
+            raise EncodeError(
+                "model", profile.model.value, profile.refused[message.section], message.section,
+                f"{_who(profile)} has no {message.title}",
+            )  # fmt: skip
+        message.check(profile)
+    return seal(message.layout.encode(message, profile), checksum=profile.checksum)
+
+
+def _who(profile: Profile) -> str:
+    firmware = "" if profile.firmware is None else f" with firmware {profile.firmware}"
+    return f"{profile.model.value}{firmware}"
+
+
+def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
+    r"""Read a frame that a host sent to the module of `profile`.
+
+    Special: a channel, type or limit that the module does not have is read all the same: the module answers ``?AA``.
+    Errors: `DecodeError`; with `Fault.UNSUPPORTED` for a command that the module does not have.
+    Manual: 2; E7, E8, E10, E27, E93.
+
+    >>> decode_command(b"$01A\r", Profile(Model.M_7019R)), decode_command(b"$01A\r", Profile(Model.M_7017))
+    (ReadCjcUpdate(address=0x01), ReadAnalogInputsHex(address=0x01))
+    """
+    body = unseal(frame, checksum=profile.checksum, leads=COMMAND_LEADS).decode("ascii")
+    known = _BY_KEY.get(_key(body), ())
+    refused = None
+    for command in known:
+        try:
+            message: AnyCommand = command.layout.decode(body, profile)
+        except (KeyError, DecodeError):
+            continue
+        if command.section not in profile.refused:
+            return message
+        refused = command
+    if refused is not None:
+        allowed = profile.refused[refused.section]
+        raise DecodeError(Fault.UNSUPPORTED, frame, 3, field=refused.title, allowed=allowed, section=refused.section)
+    faults = [
+        command.layout.explain(body, profile, frame, command.section)
+        for command in known
+        if command.section not in profile.refused
+    ]
+    if not faults:
+        raise DecodeError(Fault.COMMAND, frame, min(len(body), 3), section="2")
+    raise max(faults, key=lambda fault: fault.offset)
+
+
+def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | Refused:
+    r"""Read the frame that answers `command`.
+
+    Special: ``$002``, asked in INIT mode, is answered from the stored address (assumption), so any is accepted.
+    Errors: `DecodeError`; with `Fault.ADDRESS` for the answer of another module, where the answer tells.
+    Manual: 2; E16, E18, E24.
+
+    >>> decode_response(b"?01\r", ReadConfiguration(0x01), Profile(Model.I_7018))
+    Refused(address=0x01)
+    """
+    layout = command.response.layout
+    body = unseal(frame, checksum=profile.checksum, leads=layout.leads).decode("ascii")
+    if body[0] == "?":
+        layout = Refused.layout
+    try:
+        response: R | Refused = layout.decode(body, profile)
+    except (KeyError, DecodeError):
+        raise layout.explain(body, profile, frame, command.section) from None
+    if layout.addressed:
+        _check_echo(response, command, frame)
+    return response
+
+
+def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # noqa: ANN401 - one with an address
+    """Hold what a response repeats of its command against the command."""
+    address = response.address
+    if address == command.answering_address:
+        if not (isinstance(response, ChannelTypeCode) and isinstance(command, ReadChannelTypeCode)):
+            return
+        if response.channel != command.channel:
+            allowed = f"{command.channel:X}"
+            raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed=allowed, section=command.section)
+        return
+    refused_by_old = isinstance(response, Refused) and address == command.address
+    told_in_init_mode = isinstance(command, ReadConfiguration) and command.address == 0
+    if not (refused_by_old or told_in_init_mode):
+        allowed = f"{command.answering_address:02X}"
+        raise DecodeError(Fault.ADDRESS, frame, 1, field="address", allowed=allowed, section=command.section)
+
+
+@cache
+def _profiles() -> tuple[Profile, ...]:
+    """Every profile whose messages could have a form of their own."""
+    differential = [Profile(model) for model in Model]
+    single_ended = [Profile(model, single_ended=True) for model in series("7017Z")]
+    return (*differential, *single_ended)
+
+
+@cache
+def _response_profiles() -> tuple[Profile, ...]:
+    kinds = {(profile.channels, profile.mask_digits): profile for profile in _profiles()}
+    old = Profile(Model.I_7018, firmware=Firmware("B1.4"))
+    return tuple(
+        evolve(profile, data_format=data_format) for profile, data_format in product((*kinds.values(), old), DataFormat)
+    )
+
+
+def candidates(frame: bytes) -> tuple[AnyCommand, ...]:
+    r"""Read a frame that a host sent to an unknown module: every command that it could be, by section.
+
+    Shape: frames with and without checksum are thought of; `i7000.models.AVAILABILITY` tells which models have which.
+    Errors: `DecodeError` if it is no command of any model.
+    Manual: 2; E7, E8, E93.
+
+    >>> candidates(b"#0184\r")
+    (ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132))
+    """
+    found: dict[AnyCommand, None] = {}
+    error = None
+    for profile, checksum in product(_profiles(), (False, True)):
+        try:
+            found[decode_command(frame, evolve(profile, checksum=checksum))] = None
+        except DecodeError as fault:
+            error = error or fault
+    if error is not None and not found:
+        raise error
+    return tuple(sorted(found, key=lambda command: COMMANDS.index(type(command))))
+
+
+def response_candidates(frame: bytes) -> tuple[Response, ...]:
+    r"""Read a frame that an unknown module sent in answer to an unknown command: every response that it could be.
+
+    Shape: frames with and without checksum, all data formats and numbers of channels are thought of.
+    Errors: `DecodeError` if it is no response of any model.
+    Manual: 2; E93.
+
+    >>> response_candidates(b"?01\r")
+    (Refused(address=0x01),)
+    """
+    found: dict[Response, None] = {}
+    error = None
+    for checksum in (False, True):
+        try:
+            body = unseal(frame, checksum=checksum, leads=RESPONSE_LEADS).decode("ascii")
+        except DecodeError as fault:
+            error = error or fault
+            continue
+        for kind, profile in product(_RESPONSES, _response_profiles()):
+            try:
+                found[kind.layout.decode(body, profile)] = None
+            except (KeyError, DecodeError):
+                continue
+    if not found:
+        raise error or DecodeError(Fault.COMMAND, frame, 1, section="2")
+    return tuple(found)
+
+
+_RESPONSES: tuple[type[Response], ...] = (
+    Refused,
+    *dict.fromkeys(command.response for command in COMMANDS if issubclass(command, Command)),
+)
+"""Every response, once."""
+
+# --- readings ---------------------------------------------------------------------------------------------------------
+
+
+def readings(response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile) -> tuple[Reading, ...]:
+    """Tell what the fields of a report mean, channel 0 first.
+
+    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, or types
+        that are not known.
+    Manual: 1.11, A.5.
+
+    >>> report = AnalogInputs(("+025.12",) * 7 + ("-9999.9",))
+    >>> [reading.value for reading in readings(report, Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8))]
+    [25.12, 25.12, 25.12, 25.12, 25.12, 25.12, 25.12, None]
+    """
+    values = response.values
+    if len(values) != len(profile.type_codes):
+        raise _unknown_types("".join(values), profile)
+    return decode_fields(
+        values, profile, DataFormat.HEX if isinstance(response, AnalogInputsHex) else profile.data_format
+    )
+
+
+def reading(response: AnalogInput, channel: int, profile: Profile) -> Reading:
+    """Tell what the field of one channel means.
+
+    Errors: `DecodeError` as for `readings`.
+    Manual: 1.11, A.5.
+    """
+    types = profile.type_codes[channel : channel + 1]
+    if not types:
+        raise _unknown_types(response.value, profile)
+    return decode_field(response.value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
+
+
+def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
+    """Write the fields of a report: what `readings` tells, the other way round.
+
+    Errors: `EncodeError` for a reading that its channel cannot have.
+    Manual: 1.11, A.5; E50, E51.
+
+    >>> fields([Reading(1.5, TypeCode.V_10.unit)] * 8, Profile(Model.I_7017))[0]
+    '+01.500'
+    """
+    values = tuple(values)
+    if len(values) != len(profile.type_codes):
+        raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
+    return tuple(
+        encode_field(value, type_code, profile.data_format)
+        for value, type_code in zip(values, profile.type_codes, strict=True)
+    )
+
+
+def _unknown_types(data: str, profile: Profile) -> DecodeError:
+    allowed = f"a profile that has a type code for each channel; this one has {len(profile.type_codes)}"
+    return DecodeError(Fault.NUMBER, data.encode(), field="type_codes", allowed=allowed, section="1.11")
+
+
+# --- what a driver has to plan for ------------------------------------------------------------------------------------
+
+
+def longest_response(command: AnyCommand, profile: Profile) -> int:
+    """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
+
+    Special: the manual bounds neither the version that is told nor the name: `LONGEST_FRAME` for these two.
+
+    >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
+    58
+    """
+    if isinstance(command, Broadcast):
+        return 0
+    return min(command.response.layout.longest(profile) + 2 * profile.checksum + 1, LONGEST_FRAME)
+
+
+def pause_after(command: AnyCommand, profile: Profile) -> float:
+    """Tell how many seconds to leave the module alone after `command`.
+
+    Time: 2 ms after broadcasts; 3 s for `ReloadDefaultCalibration`; 16 s for the calibration of a channel of the 7019
+        series with firmware up to B2.6.
+    Manual: 2.2, 2.8, 2.9, 2.28, 2.35; E103.
+    """
+    if isinstance(command, Broadcast):
+        return 0.002
+    if isinstance(command, ReloadDefaultCalibration):
+        return 3.0
+    slow = isinstance(command, CalibrateChannelZero | CalibrateChannelSpan)
+    return 16.0 if slow and not profile.runs(Firmware("B2.7")) else 0.0

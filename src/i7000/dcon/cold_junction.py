@@ -1,0 +1,215 @@
+"""Cold-junction compensation: temperature, offset, update, switch (2.11, 2.17, 2.18, 2.20, 2.21, 2.29, 2.30)."""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, Message, Response
+from i7000.errors import EncodeError
+from i7000.models import Profile
+
+__all__ = [
+    "CjcEnabled",
+    "CjcOffset",
+    "CjcTemperature",
+    "CjcUpdateSetting",
+    "ReadCjcEnabled",
+    "ReadCjcOffset",
+    "ReadCjcTemperature",
+    "ReadCjcUpdate",
+    "SetCjcEnabled",
+    "SetCjcOffset",
+    "SetCjcUpdate",
+]
+
+OFFSET_LIMIT = 0x1000
+"""The largest magnitude of an offset that a module takes (2.18)."""
+
+
+def _check_offset(message: Message, offset: int) -> None:
+    if abs(offset) > OFFSET_LIMIT:
+        raise EncodeError("offset", offset, f"-{OFFSET_LIMIT}..+{OFFSET_LIMIT} counts of 0.01 degC", message.section)
+
+
+@frozen
+class CjcTemperature(Response):
+    """Tell the temperature of the cold junction.
+
+    Wire: ``>(Data)``
+    Shape: sign, four digits, a point and one digit.
+    Unit: degrees Celsius, in tenths.
+    Special: the offset is included on the 7018 series, not on the 7019 series.
+    Manual: 2.11; E24, E29.
+    """
+
+    syntax = ">(Data)"
+    section = "2.11"
+    title = "CJC temperature"
+
+    temperature: layout.Temperature
+
+
+class ReadCjcTemperature(Command[CjcTemperature]):
+    """Ask for the temperature of the cold junction.
+
+    Wire: ``$AA3`` -> ``>(Data)``
+    Models: 7018 and 7019 series.
+    Manual: 2.11; E24, E29.
+    """
+
+    syntax = "$AA3"
+    section = "2.11"
+    title = "CJC temperature"
+
+
+@frozen
+class CjcOffset(Response):
+    """Tell the offset of the cold-junction temperature.
+
+    Wire: ``!AA(Data)``
+    Shape: a sign and the magnitude in four hex digits; ``-0000`` is read as 0.
+    Unit: counts of 0.01 degC; `celsius` is the offset in degrees.
+    Manual: 2.17; E85.
+    """
+
+    syntax = "!AA(Data)"
+    section = "2.17"
+    title = "CJC offset"
+
+    address: layout.Address
+    offset: layout.OffsetData
+
+    @property
+    def celsius(self) -> float:
+        """The offset in degrees Celsius."""
+        return self.offset / 100
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+        """Refuse an offset beyond the limit."""
+        _check_offset(self, self.offset)
+
+
+class ReadCjcOffset(Command[CjcOffset]):
+    """Ask for the offset of the cold-junction temperature.
+
+    Wire: ``$AA9`` -> ``!AA(Data)``
+    Models: 7018 and 7019 series.
+    Manual: 2.17; E85.
+    """
+
+    syntax = "$AA9"
+    section = "2.17"
+    title = "CJC offset"
+
+
+@frozen
+class SetCjcOffset(Command[Acknowledged]):
+    """Set the offset of the cold-junction temperature.
+
+    Wire: ``$AA9SNNNN`` -> ``!AA``
+    Shape: a sign and the magnitude in four hex digits; ``-0000`` is read as 0.
+    Unit: counts of 0.01 degC.
+    Range: up to 1000h either way, 40.96 degC.
+    Models: 7018 and 7019 series.
+    Errors: `EncodeError` beyond the range.
+    Manual: 2.18; E85.
+    """
+
+    syntax = "$AA9SNNNN"
+    section = "2.18"
+    title = "CJC offset"
+
+    offset: layout.Offset
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+        """Refuse an offset beyond the limit."""
+        _check_offset(self, self.offset)
+
+
+@frozen
+class CjcUpdateSetting(Response):
+    """Tell whether the cold-junction temperature is being updated.
+
+    Wire: ``!AAi``
+    Manual: 2.20; E8.
+    """
+
+    syntax = "!AAi"
+    section = "2.20"
+    title = "CJC update setting"
+
+    address: layout.Address
+    update: layout.Update
+
+
+class ReadCjcUpdate(Command[CjcUpdateSetting]):
+    """Ask whether the cold-junction temperature is being updated.
+
+    Wire: ``$AAA`` -> ``!AAi``
+    Models: 7019 series; the same characters are `ReadAnalogInputsHex` for the 7017 series.
+    Manual: 2.20; E8.
+    """
+
+    syntax = "$AAA"
+    section = "2.20"
+    title = "CJC update setting"
+
+
+@frozen
+class SetCjcUpdate(Command[Acknowledged]):
+    """Start or stop the update of the cold-junction temperature, or update it once.
+
+    Wire: ``$AAAi`` -> ``!AA``
+    Models: 7019 series.
+    Manual: 2.21; E8.
+    """
+
+    syntax = "$AAAi"
+    section = "2.21"
+    title = "CJC update setting"
+
+    update: layout.Update
+
+
+@frozen
+class CjcEnabled(Response):
+    """Tell whether the cold junction is compensated.
+
+    Wire: ``!AAN``
+    Manual: 2.29.
+    """
+
+    syntax = "!AAN"
+    section = "2.29"
+    title = "CJC switch"
+
+    address: layout.Address
+    enabled: layout.FlagN = field(kw_only=True)
+
+
+class ReadCjcEnabled(Command[CjcEnabled]):
+    """Ask whether the cold junction is compensated.
+
+    Wire: ``~AAC`` -> ``!AAN``
+    Models: 7018 and 7019 series.
+    Manual: 2.29.
+    """
+
+    syntax = "~AAC"
+    section = "2.29"
+    title = "CJC switch"
+
+
+@frozen
+class SetCjcEnabled(Command[Acknowledged]):
+    """Switch the compensation of the cold junction on or off.
+
+    Wire: ``~AACN`` -> ``!AA``
+    Models: 7018 and 7019 series.
+    Manual: 2.30.
+    """
+
+    syntax = "~AACN"
+    section = "2.30"
+    title = "CJC switch"
+
+    enabled: layout.FlagN = field(kw_only=True)

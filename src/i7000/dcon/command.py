@@ -1,0 +1,146 @@
+"""What every DCON message is, and the answers that many commands share (manual 2).
+
+Laws: a message that can be constructed has a wire form; whether a certain model takes it is what `check` knows. A
+command names its response by type: ``class ReadConfiguration(Command[Configuration])``.
+"""
+
+from typing import Any, ClassVar, Generic, TypeVar, get_args
+
+from attrs import fields, frozen
+
+from i7000.dcon.layout import Address, Layout
+from i7000.errors import EncodeError
+from i7000.models import Profile
+
+__all__ = ["Acknowledged", "Broadcast", "Command", "Message", "Refused", "Response"]
+
+
+class _Compiled:
+    """The layout of a message class, compiled when it is first asked for."""
+
+    def __get__(self, message: object, kind: type["Message"]) -> Layout:
+        layout = Layout.compile(kind)
+        kind.layout = layout
+        return layout
+
+
+class Message:
+    """A DCON message: a command, a broadcast or a response.
+
+    Shape: `syntax` in the manual's notation, without checksum and carriage return; `section` of the manual; `title`,
+        a few words for people.
+    """
+
+    __slots__ = ()
+
+    syntax: ClassVar[str]
+    section: ClassVar[str]
+    title: ClassVar[str]
+    layout: ClassVar[Layout] = _Compiled()  # type: ignore[assignment] # a descriptor until the first use
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        # A class that has a __repr__ of its own keeps it under `frozen`.
+        cls.__repr__ = Message.__repr__  # type: ignore[method-assign]
+
+    def __attrs_post_init__(self) -> None:
+        self.layout.check(self)
+
+    def __repr__(self) -> str:
+        """The constructor call, with addresses in hex as the manual writes them."""
+        values = ", ".join(
+            f"{name}=0x{value:02X}" if name in ("address", "new_address", "mask") else f"{name}={value!r}"
+            for name, value in ((field.name, getattr(self, field.name)) for field in fields(type(self)))  # type: ignore[arg-type]
+        )
+        return f"{type(self).__name__}({values})"
+
+    def check(self, profile: Profile) -> None:
+        """Refuse what the module of `profile` does not take or send.
+
+        Errors: `EncodeError`.
+        """
+
+
+class Response(Message):
+    """What a module answers."""
+
+    __slots__ = ()
+
+
+R = TypeVar("R", bound=Response)
+"""The response of a command."""
+
+
+class Broadcast(Message):
+    """A command to all modules; none answers."""
+
+    __slots__ = ()
+
+
+@frozen
+class Command(Message, Generic[R]):
+    """A command to one module, and the type of its valid response."""
+
+    response: ClassVar[type[Response]]
+
+    address: Address
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        (cls.response,) = get_args(cls.__orig_bases__[0])  # type: ignore[attr-defined]
+
+    @property
+    def answering_address(self) -> int:
+        """The address in the valid response."""
+        return self.address
+
+
+@frozen
+class Acknowledged(Response):
+    """Say that a command was carried out.
+
+    Wire: ``!AA``
+    Manual: 2.
+    """
+
+    syntax = "!AA"
+    section = "2"
+    title = "command carried out"
+
+    address: Address
+
+
+@frozen
+class Refused(Response):
+    """Say that a command is well-formed but was not carried out: the invalid response of every command.
+
+    Wire: ``?AA``
+    Manual: 2; E16, E27.
+    """
+
+    syntax = "?AA"
+    section = "2"
+    title = "command refused"
+
+    address: Address
+
+
+def check_channel(command: Command[Any], channel: int, profile: Profile) -> None:
+    """Refuse a channel that the module does not have."""
+    if channel >= profile.channels:
+        allowed = f"0..{profile.channels - 1}: {profile.model.value}"
+        raise EncodeError("channel", channel, allowed, command.section)
+
+
+def check_mask(message: Message, mask: int, profile: Profile) -> None:
+    """Refuse a mask with bits of channels that the module does not have."""
+    if mask >> profile.channels:
+        allowed = f"bits 0..{profile.channels - 1}: {profile.model.value}"
+        raise EncodeError("mask", f"{mask:X}", allowed, message.section)
+
+
+def check_type_code(command: Command[Any], type_code: int, profile: Profile) -> None:
+    """Refuse a type code that the module cannot be set to."""
+    if not profile.supports(type_code):
+        allowed = f"{profile.supported_types()}: {profile.model.value}"
+        raise EncodeError("type_code", f"{type_code:02X}", allowed, command.section)

@@ -1,0 +1,182 @@
+"""What a module is set to: the whole of it, and the type of each channel (manual 2.1, 2.10, 2.15, 2.16).
+
+Laws: a configuration is read, changed in one place and written back (`Configuration.command`), so that nothing is set
+that was not meant.
+"""
+
+from typing import Any
+
+from attrs import evolve, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, Response, check_channel, check_type_code
+from i7000.errors import EncodeError
+from i7000.models import Profile
+from i7000.settings import BaudRate, CharacterFormat, DataFormat, Filter
+from i7000.type_codes import MIXED
+
+__all__ = [
+    "ChannelTypeCode",
+    "Configuration",
+    "ReadChannelTypeCode",
+    "ReadConfiguration",
+    "SetChannelTypeCode",
+    "SetConfiguration",
+]
+
+
+@frozen
+class SetConfiguration(Command[Acknowledged]):
+    """Set the address, the type of all channels, the line and the reports of a module.
+
+    Wire: ``%AANNTTCCFF`` -> ``!NN``
+    Special: `type_code` is `MIXED` where the channels have different types; modules whose channels are set one by one
+        ignore it. The baud rate and the checksum can only be changed in INIT mode, or after `SoftInit` where there is
+        one; a refusal comes from the old address.
+    Time: the address, type, format and filter change at once, the line and the checksum at the next power-on, or right
+        after the response when allowed by `SoftInit`.
+    Errors: `EncodeError` for what the model or its firmware does not have.
+    Manual: 2.1, 1.11; E16, E17, E20, E81, E89, E101.
+    """
+
+    syntax = "%AANNTTCCFF"
+    section = "2.1"
+    title = "module configuration"
+
+    new_address: layout.NewAddress
+    type_code: layout.NewTypeCode
+    line_settings: layout.Line
+    report_settings: layout.Report
+
+    @property
+    def answering_address(self) -> int:
+        """The new address: the module answers with it (E16)."""
+        return self.new_address
+
+    def check(self, profile: Profile) -> None:
+        """Refuse what the model or its firmware does not have."""
+        model, line, report = profile.model, self.line_settings, self.report_settings
+        mixed = self.type_code == MIXED and profile.individually_configurable
+        if model.type_by_configuration and not mixed:
+            check_type_code(self, self.type_code, profile)
+        if not isinstance(line.baud_rate, BaudRate):
+            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
+        if line.character_format is not CharacterFormat.N81 and not profile.runs(model.character_formats_from):
+            allowed = f"N81 with firmware before {model.character_formats_from}: {model.value}"
+            raise EncodeError("character_format", line.character_format.name, allowed, "1.11")
+        if not isinstance(report.data_format, DataFormat):
+            raise EncodeError("data_format", report.data_format, "0..2", "1.11")
+        if report.reserved:
+            raise EncodeError("reserved", report.reserved, "0", "1.11")
+        if report.fast_mode and not model.fast_mode:
+            raise EncodeError("fast_mode", True, f"False: {model.value} has none", "1.11")
+        if report.filter is not Filter.REJECT_60_HZ and not profile.runs(model.filter_from):
+            allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {model.filter_from}: {model.value}"
+            raise EncodeError("filter", report.filter.name, allowed, "1.11")
+
+
+@frozen
+class Configuration(Response):
+    """Tell the configuration of a module.
+
+    Wire: ``!AATTCCFF``
+    Special: `type_code` is `MIXED` where the channels have different types, and has no meaning for modules whose
+        channels are set one by one. In INIT mode the address is the stored one (assumption).
+    Manual: 2.10, 1.11; E4, E18, E81.
+    """
+
+    syntax = "!AATTCCFF"
+    section = "2.10"
+    title = "module configuration"
+
+    address: layout.Address
+    type_code: layout.NewTypeCode
+    line_settings: layout.Line
+    report_settings: layout.Report
+
+    def command(self, **changes: Any) -> SetConfiguration:  # noqa: ANN401 - checked by the constructor
+        """Make the command that writes this configuration back, with `changes` to the fields of `SetConfiguration`.
+
+        >>> from i7000.settings import LineSettings, ReportSettings
+        >>> configuration = Configuration(0x01, 0x05, LineSettings(), ReportSettings())
+        >>> configuration.command(new_address=0x02).new_address
+        2
+        """
+        command = SetConfiguration(self.address, self.address, self.type_code, self.line_settings, self.report_settings)
+        return evolve(command, **changes)
+
+
+class ReadConfiguration(Command[Configuration]):
+    """Ask for the configuration of a module.
+
+    Wire: ``$AA2`` -> ``!AATTCCFF``
+    Special: in INIT mode a module is asked at address 00 and answers with its stored address (assumption).
+    Manual: 2.10; E4, E18.
+    """
+
+    syntax = "$AA2"
+    section = "2.10"
+    title = "module configuration"
+
+
+@frozen
+class SetChannelTypeCode(Command[Acknowledged]):
+    """Set the type of one channel.
+
+    Wire: ``$AA7CiRrr`` -> ``!AA``
+    Shape: the channel has one hex digit, in single-ended mode two.
+    Models: those with individually configurable channels.
+    Errors: `EncodeError` for a channel or type that the module does not have.
+    Manual: 2.15; E22, E23.
+    """
+
+    syntax = "$AA7CiRrr"
+    section = "2.15"
+    title = "type code of single channels"
+
+    channel: layout.ChannelI
+    type_code: layout.ChannelTypeCode
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel or a type that the module does not have."""
+        check_channel(self, self.channel, profile)
+        check_type_code(self, self.type_code, profile)
+
+
+@frozen
+class ChannelTypeCode(Response):
+    """Tell the type of one channel.
+
+    Wire: ``!AACiRrr``
+    Manual: 2.16; E22.
+    """
+
+    syntax = "!AACiRrr"
+    section = "2.16"
+    title = "type code of a channel"
+
+    address: layout.Address
+    channel: layout.ChannelI
+    type_code: layout.ChannelTypeCode
+
+
+@frozen
+class ReadChannelTypeCode(Command[ChannelTypeCode]):
+    """Ask for the type of one channel.
+
+    Wire: ``$AA8Ci`` -> ``!AACiRrr``
+    Shape: the channel has one hex digit, in single-ended mode two.
+    Models: those with individually configurable channels.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.16; E22.
+    """
+
+    syntax = "$AA8Ci"
+    section = "2.16"
+    title = "type code of single channels"
+
+    channel: layout.ChannelI
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)

@@ -1,0 +1,194 @@
+"""Who a module is, which protocol it speaks, and the soft INIT that unlocks its line settings.
+
+Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
+"""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, Response
+from i7000.errors import EncodeError
+from i7000.models import Profile
+
+__all__ = [
+    "FirmwareVersion",
+    "ModuleName",
+    "ProtocolSetting",
+    "ReadFirmwareVersion",
+    "ReadModuleName",
+    "ReadProtocol",
+    "SetModuleName",
+    "SetProtocol",
+    "SetSoftInitTimeout",
+    "SoftInit",
+]
+
+LONGEST_NAME = 6
+"""Characters of a name that can be set (2.33)."""
+LONGEST_TIMEOUT = 60
+"""Seconds of the soft INIT time-out (2.34)."""
+
+
+@frozen
+class FirmwareVersion(Response):
+    """Tell the firmware version.
+
+    Wire: ``!AA(Data)``
+    Shape: `version` as sent; `i7000.Firmware` reads the form that the manual shows, ``A2.0``.
+    Manual: 2.23; E67, E102.
+    """
+
+    syntax = "!AA(Data)"
+    section = "2.23"
+    title = "firmware version"
+
+    address: layout.Address
+    version: layout.Text
+
+
+class ReadFirmwareVersion(Command[FirmwareVersion]):
+    """Ask for the firmware version.
+
+    Wire: ``$AAF`` -> ``!AA(Data)``
+    Manual: 2.23.
+    """
+
+    syntax = "$AAF"
+    section = "2.23"
+    title = "firmware version"
+
+
+@frozen
+class ModuleName(Response):
+    """Tell the name of the module.
+
+    Wire: ``!AA(Name)``
+    Shape: printable ASCII without the leading characters of messages (assumption).
+    Manual: 2.24; E6, E102.
+    """
+
+    syntax = "!AA(Name)"
+    section = "2.24"
+    title = "module name"
+
+    address: layout.Address
+    name: layout.Name
+
+
+class ReadModuleName(Command[ModuleName]):
+    """Ask for the name of the module.
+
+    Wire: ``$AAM`` -> ``!AA(Name)``
+    Manual: 2.24; E6.
+    """
+
+    syntax = "$AAM"
+    section = "2.24"
+    title = "module name"
+
+
+@frozen
+class SetModuleName(Command[Acknowledged]):
+    """Set the name of the module.
+
+    Wire: ``~AAO(Name)`` -> ``!AA``
+    Shape: 1 to 6 characters, printable ASCII without the leading characters of messages (assumption).
+    Errors: `EncodeError` for a longer name.
+    Manual: 2.33; E102.
+    """
+
+    syntax = "~AAO(Name)"
+    section = "2.33"
+    title = "module name"
+
+    name: layout.Name
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+        """Refuse a longer name."""
+        if len(self.name) > LONGEST_NAME:
+            raise EncodeError("name", self.name, f"1 to {LONGEST_NAME} characters", self.section)
+
+
+@frozen
+class ProtocolSetting(Response):
+    """Tell which protocols there are, and which is spoken after the next power-on.
+
+    Wire: ``!AASC``
+    Manual: 2.25; E92.
+    """
+
+    syntax = "!AASC"
+    section = "2.25"
+    title = "protocol"
+
+    address: layout.Address
+    modbus_supported: layout.FlagS = field(kw_only=True)
+    """True on every module that has the command (E92)."""
+    protocol: layout.ProtocolC
+
+
+class ReadProtocol(Command[ProtocolSetting]):
+    """Ask which protocols there are, and which is spoken after the next power-on.
+
+    Wire: ``$AAP`` -> ``!AASC``
+    Models: M-7000 series.
+    Manual: 2.25; E92.
+    """
+
+    syntax = "$AAP"
+    section = "2.25"
+    title = "protocol"
+
+
+@frozen
+class SetProtocol(Command[Acknowledged]):
+    """Set the protocol that is spoken after the next power-on; refused but in INIT mode.
+
+    Wire: ``$AAPN`` -> ``!AA``
+    Models: M-7000 series.
+    Manual: 2.26, 1.12.1; E17, E91.
+    """
+
+    syntax = "$AAPN"
+    section = "2.26"
+    title = "protocol"
+
+    protocol: layout.ProtocolN
+
+
+class SoftInit(Command[Acknowledged]):
+    """Allow the next command to change the baud rate and the checksum, until the time-out.
+
+    Wire: ``~AAI`` -> ``!AA``
+    Special: `SetSoftInitTimeout` must come first: the time-out is 0 after power-on.
+    Models: M-7017mC-16 and 7019 series.
+    Manual: 2.32; E20, E32.
+    """
+
+    syntax = "~AAI"
+    section = "2.32"
+    title = "soft INIT"
+
+
+@frozen
+class SetSoftInitTimeout(Command[Acknowledged]):
+    """Set how long `SoftInit` lasts; 0 forbids changes by software.
+
+    Wire: ``~AATnn`` -> ``!AA``
+    Unit: seconds.
+    Range: 0 to 60 (3Ch).
+    Models: M-7017mC-16 and 7019 series.
+    Errors: `EncodeError` for a longer time-out.
+    Manual: 2.34; E20, E32.
+    """
+
+    syntax = "~AATnn"
+    section = "2.34"
+    title = "soft INIT time-out"
+
+    timeout: layout.Seconds
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+        """Refuse a longer time-out."""
+        if self.timeout > LONGEST_TIMEOUT:
+            raise EncodeError("timeout", self.timeout, f"0..{LONGEST_TIMEOUT} s", self.section)

@@ -1,0 +1,313 @@
+"""The analog inputs: readings, which channels are on, how they are connected, what is wrong with them.
+
+Manual 2.3, 2.4, 2.13, 2.14, 2.19, 2.22, 2.42, 2.43.
+
+Laws: a response keeps the field of each channel as it was sent, so that channel 5 is always index 5; what the fields
+mean is told by `i7000.dcon.readings`.
+"""
+
+from collections.abc import Iterable
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, Message, Response, check_channel, check_mask
+from i7000.errors import EncodeError
+from i7000.models import Profile
+from i7000.readings import is_field
+from i7000.settings import DataFormat
+
+__all__ = [
+    "AnalogInput",
+    "AnalogInputs",
+    "AnalogInputsHex",
+    "ChannelMask",
+    "ConnectingMode",
+    "Diagnostics",
+    "ReadAnalogInput",
+    "ReadAnalogInputs",
+    "ReadAnalogInputsHex",
+    "ReadChannelMask",
+    "ReadConnectingMode",
+    "ReadDiagnostics",
+    "SetChannelMask",
+    "SetConnectingMode",
+    "channels_of",
+    "mask_of",
+]
+
+
+def channels_of(mask: int) -> frozenset[int]:
+    """List the channels of a mask.
+
+    >>> sorted(channels_of(0x3A))
+    [1, 3, 4, 5]
+    """
+    return frozenset(channel for channel in range(mask.bit_length()) if mask >> channel & 1)
+
+
+def mask_of(channels: Iterable[int]) -> int:
+    """Make the mask of a set of channels, channel 0 the lowest bit.
+
+    Errors: `EncodeError` for what is no channel of any module.
+
+    >>> f"{mask_of({1, 3, 4, 5}):02X}"
+    '3A'
+    """
+    mask = 0
+    for channel in channels:
+        if not 0 <= channel < _MOST_CHANNELS:
+            raise EncodeError("channel", channel, f"0..{_MOST_CHANNELS - 1}", "2.13")
+        mask |= 1 << channel
+    return mask
+
+
+_MOST_CHANNELS = 20
+
+
+def check_values(message: Message, values: tuple[str, ...], data_format: DataFormat, profile: Profile) -> None:
+    """Refuse fields that are not those of the module's channels."""
+    legacy = profile.legacy_sentinels
+    if len(values) != profile.channels or not all(is_field(value, data_format, legacy=legacy) for value in values):
+        allowed = f"{profile.channels} {data_format.name.lower()} fields: {profile.model.value}"
+        raise EncodeError("values", values, allowed, message.section)
+
+
+@frozen
+class AnalogInputs(Response):
+    """Tell the readings of all channels.
+
+    Wire: ``>(Data)``
+    Shape: one field a channel, 7 characters in engineering units and percent, 4 in hex; blanks for a disabled channel.
+    Manual: 2.3, 1.11; E24, E25, E49.
+    """
+
+    syntax = ">(Data)"
+    section = "2.3"
+    title = "readings of all channels"
+
+    values: layout.Values
+
+    def check(self, profile: Profile) -> None:
+        """Refuse fields that are not those of the module's channels."""
+        check_values(self, self.values, profile.data_format, profile)
+
+
+class ReadAnalogInputs(Command[AnalogInputs]):
+    """Ask for the readings of all channels.
+
+    Wire: ``#AA`` -> ``>(Data)``
+    Manual: 2.3; E24.
+    """
+
+    syntax = "#AA"
+    section = "2.3"
+    title = "readings of all channels"
+
+
+@frozen
+class AnalogInput(Response):
+    """Tell the reading of one channel.
+
+    Wire: ``>(Data)``
+    Shape: 7 characters in engineering units and percent, 4 in hex; blanks for a disabled channel.
+    Manual: 2.4, 1.11; E24, E25, E49.
+    """
+
+    syntax = ">(Data)"
+    section = "2.4"
+    title = "reading of one channel"
+
+    value: layout.Value
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a field of another data format."""
+        if not is_field(self.value, profile.data_format, legacy=profile.legacy_sentinels):
+            raise EncodeError("value", self.value, f"one {profile.data_format.name.lower()} field", self.section)
+
+
+@frozen
+class ReadAnalogInput(Command[AnalogInput]):
+    """Ask for the reading of one channel.
+
+    Wire: ``#AAN`` -> ``>(Data)``
+    Shape: the channel has one hex digit, in single-ended mode two.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.4; E21, E24.
+    """
+
+    syntax = "#AAN"
+    section = "2.4"
+    title = "reading of one channel"
+
+    channel: layout.ChannelN
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)
+
+
+@frozen
+class AnalogInputsHex(Response):
+    """Tell the readings of all channels in hex, whatever the data format is set to.
+
+    Wire: ``>(Data)``
+    Shape: 4 hex digits a channel; blanks for a disabled channel are read too.
+    Manual: 2.19; E8, E24, E25.
+    """
+
+    syntax = ">(Data)"
+    section = "2.19"
+    title = "readings of all channels in hex"
+
+    values: layout.HexValues
+
+    def check(self, profile: Profile) -> None:
+        """Refuse fields that are not those of the module's channels."""
+        check_values(self, self.values, DataFormat.HEX, profile)
+
+
+class ReadAnalogInputsHex(Command[AnalogInputsHex]):
+    """Ask for the readings of all channels in hex.
+
+    Wire: ``$AAA`` -> ``>(Data)``
+    Models: 7017 series; the same characters are `ReadCjcUpdate` for the 7019 series.
+    Manual: 2.19; E8, E34.
+    """
+
+    syntax = "$AAA"
+    section = "2.19"
+    title = "reading of all channels in hex"
+
+
+@frozen
+class SetChannelMask(Command[Acknowledged]):
+    """Switch channels on and off.
+
+    Wire: ``$AA5VV`` -> ``!AA``
+    Shape: the mask has a bit a channel, in 2, 4 or 6 hex digits by model; see `mask_of`.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 2.13; E11, E12.
+    """
+
+    syntax = "$AA5VV"
+    section = "2.13"
+    title = "channel mask"
+
+    mask: layout.Mask
+
+    def check(self, profile: Profile) -> None:
+        """Refuse channels that the module does not have."""
+        check_mask(self, self.mask, profile)
+
+
+@frozen
+class ChannelMask(Response):
+    """Tell which channels are on.
+
+    Wire: ``!AAVV``
+    Shape: a bit a channel, in 2, 4 or 6 hex digits by model; see `channels_of`.
+    Manual: 2.14; E11, E12.
+    """
+
+    syntax = "!AAVV"
+    section = "2.14"
+    title = "channel mask"
+
+    address: layout.Address
+    mask: layout.Mask
+
+    def check(self, profile: Profile) -> None:
+        """Refuse channels that the module does not have."""
+        check_mask(self, self.mask, profile)
+
+
+class ReadChannelMask(Command[ChannelMask]):
+    """Ask which channels are on.
+
+    Wire: ``$AA6`` -> ``!AAVV``
+    Manual: 2.14.
+    """
+
+    syntax = "$AA6"
+    section = "2.14"
+    title = "channel mask"
+
+
+@frozen
+class Diagnostics(Response):
+    """Tell which channels are on and over range, under range or open.
+
+    Wire: ``!AANN``
+    Shape: a bit a channel, in 2 hex digits; in 4 on the M-7019Z (assumption). See `channels_of`.
+    Manual: 2.22; E13, E14.
+    """
+
+    syntax = "!AANN"
+    section = "2.22"
+    title = "channel diagnostics"
+
+    address: layout.Address
+    mask: layout.DiagnosticMask
+
+    def check(self, profile: Profile) -> None:
+        """Refuse channels that the module does not have."""
+        check_mask(self, self.mask, profile)
+
+
+class ReadDiagnostics(Command[Diagnostics]):
+    """Ask which channels are over range, under range or open.
+
+    Wire: ``$AAB`` -> ``!AANN``
+    Models: 7019 series.
+    Manual: 2.22; E13, E14.
+    """
+
+    syntax = "$AAB"
+    section = "2.22"
+    title = "channel diagnostics"
+
+
+@frozen
+class ConnectingMode(Response):
+    """Tell whether the inputs are single-ended.
+
+    Wire: ``!AAN``
+    Manual: 2.42.
+    """
+
+    syntax = "!AAN"
+    section = "2.42"
+    title = "connecting mode"
+
+    address: layout.Address
+    single_ended: layout.FlagN = field(kw_only=True)
+
+
+class ReadConnectingMode(Command[ConnectingMode]):
+    """Ask whether the inputs are single-ended.
+
+    Wire: ``@AAS`` -> ``!AAN``
+    Models: 7017Z.
+    Manual: 2.42.
+    """
+
+    syntax = "@AAS"
+    section = "2.42"
+    title = "connecting mode"
+
+
+@frozen
+class SetConnectingMode(Command[Acknowledged]):
+    """Make the inputs single-ended or differential.
+
+    Wire: ``@AASN`` -> ``!AA``
+    Models: 7017Z.
+    Manual: 2.43; E3.
+    """
+
+    syntax = "@AASN"
+    section = "2.43"
+    title = "connecting mode"
+
+    single_ended: layout.FlagN = field(kw_only=True)

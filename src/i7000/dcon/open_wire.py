@@ -1,0 +1,56 @@
+"""Detection of open thermocouple wires (manual 2.40, 2.41).
+
+Laws: the second letter of ``~AAEO`` is the letter O, where ``~AAE0`` with the digit 0 forbids calibration (E10).
+"""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Command, Response
+
+__all__ = ["OpenWireDetection", "ReadOpenWireDetection", "SetOpenWireDetection"]
+
+
+@frozen
+class OpenWireDetection(Response):
+    """Tell whether open wires are looked for.
+
+    Wire: ``!AAN``
+    Manual: 2.40; E1, E68.
+    """
+
+    syntax = "!AAN"
+    section = "2.40"
+    title = "open wire detection"
+
+    address: layout.Address
+    enabled: layout.FlagN = field(kw_only=True)
+
+
+class ReadOpenWireDetection(Command[OpenWireDetection]):
+    """Ask whether open wires are looked for.
+
+    Wire: ``~AAEO`` -> ``!AAN``
+    Models: 7018R from firmware B4.2, 7019 series from B3.7.
+    Manual: 2.40; E1, E68, E69.
+    """
+
+    syntax = "~AAEO"
+    section = "2.40"
+    title = "open wire detection setting"
+
+
+@frozen
+class SetOpenWireDetection(Command[Acknowledged]):
+    """Switch the detection of open wires on or off.
+
+    Wire: ``~AAEON`` -> ``!AA``
+    Models: 7018R from firmware B4.2, 7019 series from B3.7.
+    Manual: 2.41; E2, E68, E69.
+    """
+
+    syntax = "~AAEON"
+    section = "2.41"
+    title = "open wire detection setting"
+
+    enabled: layout.FlagN = field(kw_only=True)

@@ -1,0 +1,64 @@
+"""Synchronized sampling: all modules sample at one broadcast, each is asked later (manual 2.2, 2.12).
+
+Models: 7019 series.
+"""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Broadcast, Command, Response
+from i7000.dcon.inputs import check_values
+from i7000.models import Profile
+
+__all__ = ["ReadSynchronizedData", "SynchronizedData", "SynchronizedSampling"]
+
+
+@frozen
+class SynchronizedSampling(Broadcast):
+    """Tell all modules to sample their inputs now and to keep the readings.
+
+    Wire: ``#**``, no response
+    Time: 2 ms before the next command.
+    Models: 7019 series; the others ignore it (assumption).
+    Manual: 2.2; E26.
+    """
+
+    syntax = "#**"
+    section = "2.2"
+    title = "synchronized sampling"
+
+
+@frozen
+class SynchronizedData(Response):
+    """Tell the readings kept at the last `SynchronizedSampling`.
+
+    Wire: ``>AAS(Data)``
+    Shape: `values` as in `AnalogInputs`.
+    Manual: 2.12, 1.11; E15, E24, E25.
+    """
+
+    syntax = ">AAS(Data)"
+    section = "2.12"
+    title = "synchronized readings of all channels"
+
+    address: layout.Address
+    first_reading: layout.FlagS = field(kw_only=True)
+    """Whether they are told for the first time."""
+    values: layout.Values
+
+    def check(self, profile: Profile) -> None:
+        """Refuse fields that are not those of the module's channels."""
+        check_values(self, self.values, profile.data_format, profile)
+
+
+class ReadSynchronizedData(Command[SynchronizedData]):
+    """Ask for the readings kept at the last `SynchronizedSampling`; refused if there was none.
+
+    Wire: ``$AA4`` -> ``>AAS(Data)``
+    Models: 7019 series.
+    Manual: 2.12; E15.
+    """
+
+    syntax = "$AA4"
+    section = "2.12"
+    title = "synchronized sampling"

@@ -1,0 +1,128 @@
+"""The host watchdog: a module that hears no host for too long remembers it (manual 2.35 to 2.39, A.2)."""
+
+from attrs import field, frozen
+
+from i7000.dcon import layout
+from i7000.dcon.command import Acknowledged, Broadcast, Command, Response
+
+__all__ = [
+    "HostOk",
+    "HostWatchdogStatus",
+    "HostWatchdogTimeout",
+    "ReadHostWatchdogStatus",
+    "ReadHostWatchdogTimeout",
+    "ResetHostWatchdogStatus",
+    "SetHostWatchdogTimeout",
+]
+
+
+@frozen
+class HostOk(Broadcast):
+    """Tell all modules that the host is alive.
+
+    Wire: ``~**``, no response
+    Time: 2 ms before the next command.
+    Manual: 2.35, A.2.
+    """
+
+    syntax = "~**"
+    section = "2.35"
+    title = "sign of life of the host"
+
+
+@frozen
+class HostWatchdogStatus(Response):
+    """Tell whether the watchdog is on, and whether it has timed out.
+
+    Wire: ``!AASS``
+    Shape: bit 7 of `status` is `enabled`, bit 2 `timed_out`; the others are kept as sent.
+    Manual: 2.36, A.2; E30, E31.
+    """
+
+    syntax = "!AASS"
+    section = "2.36"
+    title = "host watchdog status"
+
+    address: layout.Address
+    status: layout.StatusByte
+
+    @property
+    def enabled(self) -> bool:
+        """Whether the watchdog is on."""
+        return bool(self.status & 0x80)
+
+    @property
+    def timed_out(self) -> bool:
+        """Whether it has timed out since the last reset."""
+        return bool(self.status & 0x04)
+
+
+class ReadHostWatchdogStatus(Command[HostWatchdogStatus]):
+    """Ask whether the watchdog is on, and whether it has timed out.
+
+    Wire: ``~AA0`` -> ``!AASS``
+    Manual: 2.36; E30, E31.
+    """
+
+    syntax = "~AA0"
+    section = "2.36"
+    title = "host watchdog status"
+
+
+class ResetHostWatchdogStatus(Command[Acknowledged]):
+    """Forget that the watchdog has timed out.
+
+    Wire: ``~AA1`` -> ``!AA``
+    Manual: 2.37; E30.
+    """
+
+    syntax = "~AA1"
+    section = "2.37"
+    title = "host watchdog status"
+
+
+@frozen
+class HostWatchdogTimeout(Response):
+    """Tell whether the watchdog is on, and its time-out.
+
+    Wire: ``!AAEVV``
+    Unit: `timeout` in tenths of a second.
+    Manual: 2.38; E5.
+    """
+
+    syntax = "!AAEVV"
+    section = "2.38"
+    title = "host watchdog time-out"
+
+    address: layout.Address
+    enabled: layout.FlagE = field(kw_only=True)
+    timeout: layout.Tenths
+
+
+class ReadHostWatchdogTimeout(Command[HostWatchdogTimeout]):
+    """Ask whether the watchdog is on, and its time-out.
+
+    Wire: ``~AA2`` -> ``!AAEVV``
+    Manual: 2.38; E5.
+    """
+
+    syntax = "~AA2"
+    section = "2.38"
+    title = "host watchdog time-out"
+
+
+@frozen
+class SetHostWatchdogTimeout(Command[Acknowledged]):
+    """Switch the watchdog on or off, and set its time-out.
+
+    Wire: ``~AA3EVV`` -> ``!AA``
+    Unit: `timeout` in tenths of a second; what 0 does while the watchdog is on is not documented.
+    Manual: 2.39; E5, E100.
+    """
+
+    syntax = "~AA3EVV"
+    section = "2.39"
+    title = "host watchdog time-out"
+
+    enabled: layout.FlagE = field(kw_only=True)
+    timeout: layout.Tenths

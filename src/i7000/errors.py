@@ -1,0 +1,109 @@
+"""What can be wrong, in both directions: every error of the package lives here.
+
+Laws: an encoder raises nothing but `EncodeError`, a decoder nothing but `DecodeError`. What a module may
+legally say is never an error: a refusal (``?AA``) is a value.
+"""
+
+from enum import Enum
+
+from attrs import frozen
+
+__all__ = ["DecodeError", "EncodeError", "Fault", "I7000Error", "Noise"]
+
+
+class Fault(Enum):
+    """Why bytes are not a frame, or a frame is not a message."""
+
+    LENGTH = "length"
+    """Too short or too long for what it is; or more than 256 bytes without an end."""
+    TERMINATOR = "terminator"
+    """The carriage return is missing, or comes early."""
+    CHARACTER = "character"
+    """A byte that may not stand where it stands: not ASCII, a lower-case digit, another letter than the syntax has."""
+    LEADING = "leading"
+    """Not the leading character of a message of this direction or kind."""
+    CHECKSUM = "checksum"
+    """The checksum is missing, wrong or in lower case."""
+    COMMAND = "command"
+    """No module has a command of this form."""
+    UNSUPPORTED = "unsupported"
+    """The command exists, but not on this model or firmware."""
+    ADDRESS = "address"
+    """The answer of another module than the one asked."""
+    NUMBER = "number"
+    """A data field that is not a number of its format."""
+    VALUE = "value"
+    """A digit outside the few that are defined for its place."""
+
+
+class I7000Error(Exception):
+    """The base of every error that this package raises on purpose."""
+
+
+class EncodeError(I7000Error, ValueError):
+    """A value that cannot be sent.
+
+    Shape: `field`, `value`, `allowed` (what it could be, or who can), `section` of the manual; `reason` where more is
+        to say than that the field cannot have the value.
+    """
+
+    def __init__(self, field: str, value: object, allowed: str, section: str, reason: str = "") -> None:
+        super().__init__(field, value, allowed, section, reason)
+        self.field = field
+        self.value = value
+        self.allowed = allowed
+        self.section = section
+        self.reason = reason
+
+    def __str__(self) -> str:
+        reason = self.reason or f"{self.field} cannot be {_short(self.value)}"
+        return f"{reason}: {self.allowed}, manual {self.section}"
+
+
+class DecodeError(I7000Error, ValueError):
+    """Bytes that are not what they should be; `wire` holds them all, nothing is lost.
+
+    Shape: `fault`, `wire`, `offset` (of the first byte at fault), `field` (its name, or empty), `allowed`, `section`.
+    """
+
+    def __init__(  # noqa: PLR0913 - the facts of one fault
+        self, fault: Fault, wire: bytes, offset: int = 0, *, field: str = "", allowed: str = "", section: str = ""
+    ) -> None:
+        super().__init__(fault, wire, offset, field, allowed, section)
+        self.fault = fault
+        self.wire = wire
+        self.offset = offset
+        self.field = field
+        self.allowed = allowed
+        self.section = section
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _decode_error, self.args
+
+    def __str__(self) -> str:
+        where = f" in {self.field}" if self.field else ""
+        allowed = f"; allowed: {self.allowed}" if self.allowed else ""
+        source = f" (manual {self.section})" if self.section else ""
+        return f"{self.fault.value}{where} at byte {self.offset} of {_short(self.wire)}{allowed}{source}"
+
+
+def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> DecodeError:
+    field, allowed, section = facts
+    return DecodeError(fault, wire, offset, field=field, allowed=allowed, section=section)
+
+
+_SHOWN = 60
+"""Characters of a value that a message shows; the attribute holds all of it."""
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}... ({len(text)} characters)"
+
+
+@frozen
+class Noise:
+    """Bytes of a stream that belong to no frame, and what was wrong with the first of them."""
+
+    wire: bytes
+    fault: Fault

@@ -1,0 +1,462 @@
+"""The 28 modules: what each one has, from which firmware on, and the `Profile` a host needs to read its bytes.
+
+Laws: the name of a model says most of what it is, so features are rules on names, as the manual's notes are; the rows
+stand in ``spec/tables/models.json``. A firmware that is not given (None) is the newest: nothing is held back for it.
+Manual: 1, 1.3, 1.9, 1.11, the notes of chapter 2.
+"""
+
+import re
+from collections.abc import Iterable, Mapping
+from enum import Enum
+from functools import total_ordering
+
+from attrs import field, frozen
+
+from i7000.errors import EncodeError
+from i7000.settings import DataFormat, ModbusDataFormat, Protocol
+from i7000.type_codes import TypeCode, Unit
+
+__all__ = ["Firmware", "Model", "Profile", "series"]
+
+_FIRMWARE = re.compile(r"([A-Z])(\d)(?:\.(\d{1,2})|(\d\d))")
+
+
+@total_ordering
+@frozen(eq=False, repr=False)
+class Firmware:
+    """A firmware version, as ``$AAF`` tells it; versions are ordered.
+
+    Shape: a letter, a digit and a minor number, ``B3.9``; the address maps write ``B305`` for B3.5 (E67).
+    Errors: `EncodeError`.
+    Manual: 2.23, 3.4.
+
+    >>> Firmware("B405") == Firmware("B4.5") > Firmware("B3.10") > Firmware("A9.0")
+    True
+    """
+
+    text: str
+
+    def __attrs_post_init__(self) -> None:
+        if not isinstance(self.text, str) or not _FIRMWARE.fullmatch(self.text):
+            raise EncodeError("firmware", self.text, "a letter, a digit and a minor number: B3.9 or B305", "2.23")
+
+    @property
+    def _key(self) -> tuple[str, int, int]:
+        letter, major, minor, packed = _FIRMWARE.fullmatch(self.text).groups()  # type: ignore[union-attr]
+        return letter, int(major), int(minor or packed)
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, Firmware) else NotImplemented
+
+    def __lt__(self, other: "Firmware") -> bool:
+        return self._key < other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __str__(self) -> str:
+        """The version with its point, however it was written."""
+        letter, major, minor = self._key
+        return f"{letter}{major}.{minor}"
+
+    def __repr__(self) -> str:
+        return f"Firmware({str(self)!r})"
+
+
+Gates = Mapping["Model", Firmware | None]
+"""The models that have a thing, and the firmware from which on (None: always)."""
+
+
+class Model(Enum):
+    """A module of the manual, by its printed name."""
+
+    I_7017 = "I-7017"
+    I_7017F = "I-7017F"
+    I_7017C = "I-7017C"
+    I_7017FC = "I-7017FC"
+    I_7017R = "I-7017R"
+    I_7017RC = "I-7017RC"
+    I_7017R_A5 = "I-7017R-A5"
+    I_7017Z = "I-7017Z"
+    M_7017 = "M-7017"
+    M_7017C = "M-7017C"
+    M_7017R = "M-7017R"
+    M_7017RC = "M-7017RC"
+    M_7017R_A5 = "M-7017R-A5"
+    M_7017Z = "M-7017Z"
+    M_7017RMS = "M-7017RMS"
+    M_7017mC_16 = "M-7017mC-16"
+    I_7018 = "I-7018"
+    I_7018P = "I-7018P"
+    I_7018BL = "I-7018BL"
+    I_7018R = "I-7018R"
+    I_7018Z = "I-7018Z"
+    M_7018 = "M-7018"
+    M_7018R = "M-7018R"
+    M_7018Z = "M-7018Z"
+    M_7018_16 = "M-7018-16"
+    I_7019R = "I-7019R"
+    M_7019R = "M-7019R"
+    M_7019Z = "M-7019Z"
+
+    @classmethod
+    def find(cls, name: str) -> "Model":
+        """The model of that name, in any case; I-7019 and M-7019 are the R models, the only ones there are (E36).
+
+        Errors: `EncodeError` that names the nearest ones.
+        """
+        wanted = name.upper()
+        if wanted in ("I-7019", "M-7019"):
+            wanted += "R"
+        for model in cls:
+            if model.value.upper() == wanted:
+                return model
+        near = [model.value for model in cls if model.series in wanted] or [model.value for model in cls]
+        raise EncodeError("model", name, ", ".join(near), "1")
+
+    @property
+    def series(self) -> str:
+        """The series within I-7000 or M-7000: ``7017``, ``7018`` or ``7019``."""
+        return self.value[2:6]
+
+    @property
+    def suffix(self) -> str:
+        """What the name has after the series: ``R-A5``, ``Z``, or nothing."""
+        return self.value[6:]
+
+    @property
+    def protocols(self) -> frozenset[Protocol]:
+        """The protocols it speaks: Modbus RTU is what the M-7000 series adds."""
+        return frozenset(Protocol) if self.value.startswith("M") else frozenset({Protocol.DCON})
+
+    @property
+    def channels(self) -> int:
+        """Differential input channels (1.3)."""
+        if self.suffix.endswith("-16"):
+            return 16
+        return 10 if self.suffix == "Z" else 8
+
+    @property
+    def single_ended_channels(self) -> int | None:
+        """Channels when all inputs are single-ended: by command on the 7017Z, by jumper on the M-7017mC-16 (1.3)."""
+        if self.series == "7017" and self.suffix == "Z":
+            return 20
+        return 16 if self is Model.M_7017mC_16 else None
+
+    @property
+    def current_only(self) -> bool:
+        """Whether it measures currents only."""
+        return self.series == "7017" and self.suffix in ("C", "FC", "RC", "mC-16")
+
+    @property
+    def default_type(self) -> TypeCode | None:
+        """The factory type of every channel (1.9); that of the I-7018BL is not documented (E35)."""
+        if self is Model.I_7018BL:
+            return None
+        if self.suffix == "R-A5":
+            return TypeCode.V_150
+        if self.current_only:
+            return TypeCode.MA_20_0D
+        return TypeCode.V_2_5 if self.series == "7018" else TypeCode.V_10
+
+    @property
+    def type_codes(self) -> Mapping[TypeCode, Firmware | None]:  # noqa: PLR0911 - a table
+        """The types it supports, and the firmware from which on (1.11; E35 to E42)."""
+        low, high = _codes(0x00, 0x06), _codes(0x08, 0x0D)
+        match self.series, self.suffix:
+            case "7017", "R-A5":
+                return _codes(0x1B, 0x1C)
+            case "7017", "RMS":
+                return _codes(0x08, 0x0C)
+            case "7017", "Z":
+                return high | _unipolar(None)
+            case "7017", _:
+                return (_codes(0x0D, 0x0D) if self.current_only else high) | _unipolar(Firmware("B2.2"))
+            case "7018", "BL":
+                return _codes(0x0E, 0x16)
+            case "7018", "P":
+                return low | _codes(0x0E, 0x18)
+            case "7018", "R":
+                return low | _codes(0x0E, 0x19)
+            case "7018", "Z":
+                return low | _codes(0x0E, 0x19) | _unipolar(None)
+            case "7018", _:
+                return low | _codes(0x0E, 0x16)
+            case _:
+                return low | high | _codes(0x0E, 0x19) | _unipolar(Firmware("B2.7") if self.suffix == "R" else None)
+
+    @property
+    def thermocouples(self) -> frozenset[str]:
+        """Letters of the thermocouples it measures."""
+        return frozenset(code.thermocouple for code in self.type_codes if code.thermocouple)
+
+    @property
+    def individually_configurable(self) -> bool:
+        """Whether channels can have different types, with some firmware (see `CONFIGURABLE`)."""
+        return self in CONFIGURABLE
+
+    @property
+    def type_by_configuration(self) -> bool:
+        """Whether TT of ``%AANNTTCCFF`` sets the type; elsewhere it has no use (2.1; E81)."""
+        return self not in TT_UNUSED
+
+    @property
+    def fast_mode(self) -> bool:
+        """Whether it has a fast mode, of 12 bits (1.11 FF; E43)."""
+        return self.series == "7017" and (self.suffix in ("F", "FC", "R", "RC", "R-A5", "Z", "mC-16"))
+
+    @property
+    def fast_mode_default(self) -> bool:
+        """Whether it leaves the factory in fast mode (1.9; E95)."""
+        return self in (Model.I_7017F, Model.I_7017FC)
+
+    @property
+    def sampling_rate(self) -> int:
+        """Samples a second over all channels, in normal mode (1.3; E72)."""
+        return 8 if self.series == "7019" and self.suffix == "R" else 10
+
+    @property
+    def fast_sampling_rate(self) -> int | None:
+        """Samples a second in fast mode (1.3; E96)."""
+        if not self.fast_mode:
+            return None
+        return {"R-A5": 50, "mC-16": 200}.get(self.suffix, 60)
+
+    @property
+    def cjc(self) -> bool:
+        """Whether it measures and compensates the temperature of the cold junction."""
+        return self.series != "7017"
+
+    @property
+    def open_wire_detection(self) -> bool:
+        """Whether it notices an open thermocouple wire (1.3; E69)."""
+        return self.series == "7019" or (self.series == "7018" and self.suffix in ("R", "Z", "BL", "-16"))
+
+    @property
+    def filter_from(self) -> Firmware | None:
+        """The firmware from which on the mains filter can be chosen; None: always (1.11 FF)."""
+        return Firmware("B2.7") if self.series == "7019" and self.suffix == "R" else None
+
+    @property
+    def character_formats_from(self) -> Firmware:
+        """The firmware from which on the line can be other than N81 (1.11 CC)."""
+        if self.series == "7017":
+            return Firmware("B2.6")
+        return Firmware("B2.9") if self.series == "7018" and self.suffix != "Z" else Firmware("B3.1")
+
+
+def series(*names: str) -> frozenset[Model]:
+    """Resolve series names of the manual to models.
+
+    A name is the beginning of the models it stands for: ``I-7017``, ``M-7018``, ``7019``. One that ends in a letter is
+    a model, or the I- and the M- of it: ``7017Z``, ``I-7018R``.
+    Errors: `EncodeError`.
+    Manual: 1; E34, E36.
+
+    >>> sorted(model.value for model in series("7017Z"))
+    ['I-7017Z', 'M-7017Z']
+    """
+    models: set[Model] = set()
+    for name in names:
+        found = {model for model in Model if name in (model.value, model.value[2:])}
+        if name[-4:] in ("7017", "7018", "7019"):
+            found = {model for model in Model if name in (model.value[:6], model.series)}
+        if not found:
+            raise EncodeError("series", name, "a model, or the beginning of one up to its four digits", "1")
+        models |= found
+    return frozenset(models)
+
+
+def _codes(first: int, last: int) -> dict[TypeCode, Firmware | None]:
+    return {code: None for code in TypeCode if first <= code <= last}
+
+
+def _unipolar(firmware: Firmware | None) -> dict[TypeCode, Firmware | None]:
+    return {TypeCode.MA_4_20: firmware, TypeCode.MA_0_20: firmware}
+
+
+def gates(*models: Iterable[Model], **firmware: str) -> Gates:
+    """Put together who has a thing: `models` always, those named in `firmware` from that one on."""
+    gate: dict[Model, Firmware | None] = {model: None for group in models for model in group}
+    return gate | {Model[name]: Firmware(version) for name, version in firmware.items()}
+
+
+CONFIGURABLE = gates(
+    series("7017Z", "M-7017RMS", "M-7017mC-16", "7018Z", "7019"),
+    I_7017R="B3.9", M_7017R="B3.9", I_7018R="B4.2", M_7018R="B4.5",
+)  # fmt: skip
+"""The models whose channels can have types of their own (2.1, 2.15)."""
+
+TT_UNUSED = series("7017Z", "M-7017mC-16", "7018Z", "7019")
+"""The models that ignore TT of ``%AANNTTCCFF``: their channels are set one by one (2.1)."""
+
+
+@frozen
+class Availability:
+    """Who has a command, in a word for people and as gates."""
+
+    scope: str
+    gates: Gates
+
+
+_R_MODELS = "7017Z, 7018Z, 7019 series, M-7017RMS, M-7017mC-16; I-7017R, M-7017R from B3.9, I-7018R B4.2, M-7018R B4.5"
+_7019_SERIES = Availability("7019 series only", gates(series("7019")))
+_7018_7019 = Availability("7018 and 7019 series only", gates(series("7018", "7019")))
+_7017_7018 = Availability("7017 and 7018 series only", gates(series("7017", "7018")))
+_SOFT = Availability("M-7017mC-16 and 7019 series only", gates(series("M-7017mC-16", "7019")))
+_M_SERIES = Availability("M-7000 series only", gates(series("M-7017", "M-7018", "M-7019")))
+_CONFIGURABLE = Availability(_R_MODELS, CONFIGURABLE)
+_OPEN_WIRE = Availability(
+    "7018R from B4.2 and 7019 series from B3.7 only",
+    gates(I_7018R="B4.2", M_7018R="B4.2", I_7019R="B3.7", M_7019R="B3.7", M_7019Z="B3.7"),
+)
+_CONNECTING_MODE = Availability("7017Z only", gates(series("7017Z")))
+
+AVAILABILITY: Mapping[str, Availability] = {
+    "2.2": _7019_SERIES,
+    "2.5": _7017_7018,
+    "2.6": _7017_7018,
+    "2.7": Availability("M-7017mC-16 only", gates(series("M-7017mC-16"))),
+    "2.8": _7019_SERIES,
+    "2.9": _7019_SERIES,
+    "2.11": _7018_7019,
+    "2.12": _7019_SERIES,
+    "2.15": _CONFIGURABLE,
+    "2.16": _CONFIGURABLE,
+    "2.17": _7018_7019,
+    "2.18": _7018_7019,
+    "2.19": Availability("7017 series only", gates(series("7017"))),
+    "2.20": _7019_SERIES,
+    "2.21": _7019_SERIES,
+    "2.22": _7019_SERIES,
+    "2.25": _M_SERIES,
+    "2.26": _M_SERIES,
+    "2.27": _7019_SERIES,
+    "2.28": _SOFT,
+    "2.29": _7018_7019,
+    "2.30": _7018_7019,
+    "2.32": _SOFT,
+    "2.34": _SOFT,
+    "2.40": _OPEN_WIRE,
+    "2.41": _OPEN_WIRE,
+    "2.42": _CONNECTING_MODE,
+    "2.43": _CONNECTING_MODE,
+}
+"""The sections of chapter 2 that only some models have; every other one is for all."""
+
+_LAST_LEGACY = Firmware("B1.4")
+
+
+@frozen
+class Profile:
+    """What a host must know about a module to read its bytes; everything but the model has the factory default.
+
+    Shape: `type_codes` has one entry a channel, or is empty when they are not known (the default of the I-7018BL).
+    Errors: `EncodeError` for a combination that no module has. `attrs.evolve` makes a changed copy.
+    Manual: 1.9, 1.11; E35, E83.
+
+    >>> profile = Profile(Model.M_7017Z)
+    >>> profile.channels, profile.mask_digits, profile.type_codes[0]
+    (10, 4, <TypeCode.V_10: 8>)
+    """
+
+    model: Model
+    firmware: Firmware | None = field(default=None, kw_only=True)
+    """None: the newest."""
+    single_ended: bool = field(default=False, kw_only=True)
+    """20 single-ended channels instead of 10 differential ones: 7017Z only."""
+    type_codes: tuple[TypeCode, ...] = field(kw_only=True)
+    data_format: DataFormat = field(default=DataFormat.ENGINEERING, kw_only=True)
+    checksum: bool = field(default=False, kw_only=True)
+    modbus_data_format: ModbusDataFormat = field(default=ModbusDataFormat.HEX, kw_only=True)
+    """Of M-7000 modules; which of the two is the factory default is not documented."""
+
+    channels: int = field(init=False, eq=False, repr=False)
+    """Input channels, in the connecting mode."""
+    channel_digits: int = field(init=False, eq=False, repr=False)
+    """Hex digits of a channel number in DCON commands."""
+    mask_digits: int = field(init=False, eq=False, repr=False)
+    """Hex digits of a channel mask in DCON commands."""
+    units: tuple[Unit, ...] = field(init=False, eq=False, repr=False)
+    """The unit of each channel, if the types are known."""
+    legacy_sentinels: bool = field(init=False, eq=False, repr=False)
+    """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
+    refused: Mapping[str, str] = field(init=False, eq=False, repr=False)
+    """Sections of chapter 2 that the module does not have, and who has them."""
+
+    @type_codes.default
+    def _factory_types(self) -> tuple[TypeCode, ...]:
+        if not isinstance(self.model, Model):
+            raise EncodeError("model", self.model, "a member of Model", "1")
+        default = self.model.default_type
+        return () if default is None else (default,) * _channels(self)
+
+    def __attrs_post_init__(self) -> None:
+        self._check_kinds()
+        derive = object.__setattr__
+        channels = _channels(self)
+        derive(self, "channels", channels)
+        derive(self, "channel_digits", 2 if self.single_ended else 1)
+        derive(self, "mask_digits", (channels + 7) // 8 * 2)
+        old = self.firmware is not None and self.firmware <= _LAST_LEGACY
+        derive(self, "legacy_sentinels", old and self.model.value.startswith("I-7018"))
+        refused = {section: it.scope for section, it in AVAILABILITY.items() if not self.has(it.gates)}
+        derive(self, "refused", refused)
+        self._check_types()
+        derive(self, "units", tuple(code.unit for code in self.type_codes))
+
+    def has(self, gates: Gates) -> bool:
+        """Whether `gates` are open for this model and firmware."""
+        return self.model in gates and self.runs(gates[self.model])
+
+    def runs(self, firmware: Firmware | None) -> bool:
+        """Whether the firmware is `firmware` or a later one."""
+        return firmware is None or self.firmware is None or self.firmware >= firmware
+
+    def supports(self, type_code: int) -> bool:
+        """Whether the module can be set to `type_code`."""
+        code = TypeCode.of(type_code)
+        types = self.model.type_codes
+        return isinstance(code, TypeCode) and code in types and self.runs(types[code])
+
+    @property
+    def individually_configurable(self) -> bool:
+        """Whether the channels can have different types."""
+        return self.has(CONFIGURABLE)
+
+    def supported_types(self) -> str:
+        """The types that the module can be set to, as the manual writes them: for messages."""
+        return " ".join(f"{code:02X}" for code in self.model.type_codes if self.supports(code))
+
+    def _check_kinds(self) -> None:
+        model = self.model.value
+        for name, value, kind in (
+            ("checksum", self.checksum, bool),
+            ("single_ended", self.single_ended, bool),
+            ("data_format", self.data_format, DataFormat),
+            ("modbus_data_format", self.modbus_data_format, ModbusDataFormat),
+            ("type_codes", self.type_codes, tuple),
+        ):
+            if not isinstance(value, kind):
+                raise EncodeError(name, value, f"a {kind.__name__}", "1.11")
+        if self.firmware is not None and not isinstance(self.firmware, Firmware):
+            raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
+        if self.single_ended and self.model not in _CONNECTING_MODE.gates:
+            raise EncodeError("single_ended", True, f"False: {model} has no such mode, 7017Z only", "2.43")
+        if self.modbus_data_format and Protocol.MODBUS_RTU not in self.model.protocols:
+            raise EncodeError("modbus_data_format", self.modbus_data_format, f"HEX: {model} has no Modbus", "1.12")
+
+    def _check_types(self) -> None:
+        model = self.model.value
+        if len(self.type_codes) not in (0, self.channels):
+            raise EncodeError("type_codes", self.type_codes, f"{self.channels} of them, or none: {model}", "1.3")
+        for code in set(self.type_codes):
+            if not (isinstance(code, TypeCode) and self.supports(code)):
+                raise EncodeError("type_codes", code, f"{self.supported_types()}: {model}", "1.11")
+        if len(set(self.type_codes)) > 1 and not self.individually_configurable:
+            raise EncodeError("type_codes", self.type_codes, f"one type for all channels: {model}", "2.15")
+
+
+def _channels(profile: Profile) -> int:
+    single_ended = profile.model.single_ended_channels
+    return single_ended if profile.single_ended and single_ended else profile.model.channels

@@ -1,0 +1,377 @@
+"""What the fields of a report mean: text, percent, hex and Modbus words <-> `Reading` (manual 1.11, 3.5, A.5).
+
+Laws: a field decodes to the double nearest to what was sent, also beyond the span: a module is believed. A reading is
+encoded to the nearest count of its format, and refused where its type and format cannot say it; nothing is clamped.
+Sentinels are compared as text or word before any number is made of them.
+"""
+
+import re
+from collections.abc import Callable
+from enum import Enum
+from itertools import repeat
+from math import isfinite
+from operator import itemgetter
+from types import MethodType
+from typing import NamedTuple
+
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.models import Profile
+from i7000.settings import DataFormat
+from i7000.type_codes import TypeCode, Unit
+
+__all__ = [
+    "Reading",
+    "Status",
+    "decode_engineering_word",
+    "decode_field",
+    "decode_word",
+    "encode_engineering_word",
+    "encode_field",
+    "encode_word",
+]
+
+
+class Status(Enum):
+    """What a reading is worth."""
+
+    OK = "ok"
+    OVER_RANGE = "over_range"
+    UNDER_RANGE = "under_range"
+    DISABLED = "disabled"
+    """The channel is switched off and reports blanks."""
+
+
+class Reading(NamedTuple):
+    """One channel's reading.
+
+    Unit: `value` is in `unit`, whatever the data format; it is None unless `status` is OK.
+    """
+
+    # A named tuple, not an attrs class: every poll makes one a channel, and these are made three times as fast.
+
+    value: float | None
+    unit: Unit
+    status: Status = Status.OK
+
+
+# --- DCON fields ------------------------------------------------------------------------------------------------------
+
+_TEXT_SENTINELS = {
+    "+9999.9": Status.OVER_RANGE,
+    "-9999.9": Status.UNDER_RANGE,
+    "+999.99": Status.OVER_RANGE,
+    "-999.99": Status.UNDER_RANGE,
+}
+_LEGACY_SENTINELS = {"+9999": Status.OVER_RANGE, "-0000": Status.UNDER_RANGE}
+"""Of old firmware (`Profile.legacy_sentinels`), in every data format. ``-0000.5`` is not one of them (E49)."""
+
+FIELD_WIDTHS = {DataFormat.ENGINEERING: 7, DataFormat.PERCENT: 7, DataFormat.HEX: 4}
+_TEXT_WIDTH = FIELD_WIDTHS[DataFormat.ENGINEERING]
+_TEXT_BLANKS = " " * _TEXT_WIDTH
+
+_OUT_OF_RANGE_TEXTS = {
+    DataFormat.ENGINEERING: {Status.OVER_RANGE: "+9999.9", Status.UNDER_RANGE: "-9999.9"},
+    DataFormat.PERCENT: {Status.OVER_RANGE: "+999.99", Status.UNDER_RANGE: "-999.99"},
+}
+_FORMS = {
+    DataFormat.ENGINEERING: "sign, five digits and a point among them, or 7 blanks",
+    DataFormat.PERCENT: "sign, three digits, point, two digits, or 7 blanks",
+    DataFormat.HEX: "four digits 0-9 A-F, or 4 blanks",
+}
+
+_TEXT_SHAPE = bytes.maketrans(b"123456789-", b"000000000+")
+_SHAPE = {
+    DataFormat.ENGINEERING: _TEXT_SHAPE,
+    DataFormat.PERCENT: _TEXT_SHAPE,
+    DataFormat.HEX: bytes.maketrans(b"123456789ABCDEF", b"000000000000000"),
+}
+"""Digits as 0 and signs as +: what has the same shape is written in the same form."""
+_SHAPES = {
+    DataFormat.ENGINEERING: frozenset({b"+0.0000", b"+00.000", b"+000.00", b"+0000.0"}),
+    DataFormat.PERCENT: frozenset({b"+000.00"}),
+    DataFormat.HEX: frozenset({b"0000"}),
+}
+_COUNTS = (8, 10, 16, 20)
+_UNIFORM = {
+    data_format: frozenset(shape * count for shape in shapes for count in (1, *_COUNTS))
+    for data_format, shapes in _SHAPES.items()
+}
+_FIELDS_OF: dict[tuple[int, int], Callable[[str], tuple[str, ...]]] = {
+    (count, width): itemgetter(*(slice(at * width, (at + 1) * width) for at in range(count)))
+    for count in _COUNTS
+    for width in set(FIELD_WIDTHS.values())
+} | {(1, width): lambda text: (text,) for width in FIELD_WIDTHS.values()}
+
+
+def is_field(field: str, data_format: DataFormat, *, legacy: bool = False) -> bool:
+    """Whether `field` is one whole channel field of `data_format`: a number, a sentinel or blanks."""
+    if field == " " * FIELD_WIDTHS[data_format] or (legacy and field in _LEGACY_SENTINELS):
+        return True
+    if field.encode("ascii", "replace").translate(_SHAPE[data_format]) in _SHAPES[data_format]:
+        return True
+    return data_format is DataFormat.PERCENT and field in _TEXT_SENTINELS
+
+
+def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool = False) -> tuple[str, ...]:
+    """Split the (Data) of a report into the fields of its channels, each as sent.
+
+    Errors: `DecodeError` with `Fault.LENGTH`, `NUMBER` (text) or `CHARACTER` (hex) and the offset in `text`.
+    Manual: 1.11, 2.3; E25, E49.
+
+    >>> split_fields("+9999-0000.5-0000", 3, DataFormat.ENGINEERING, legacy=True)
+    ('+9999', '-0000.5', '-0000')
+    """
+    width = FIELD_WIDTHS[data_format]
+    if legacy:
+        fields = tuple(re.findall(_LEGACY_FIELD[data_format], text))
+    elif len(text) == count * width and text.encode().translate(_SHAPE[data_format]) in _UNIFORM[data_format]:
+        # All are numbers, and of one form: nearly always, and known at one glance.
+        return _FIELDS_OF[count, width](text)
+    else:
+        fields = tuple([text[at : at + width] for at in range(0, len(text), width)])
+    if len(fields) != count or (len(text) != count * width and not legacy):
+        length = f"{count} fields of {width} characters"
+        raise DecodeError(Fault.LENGTH, text.encode(), min(len(text), count * width), allowed=length, section="1.11")
+    at = 0
+    for field in fields:
+        if not is_field(field, data_format, legacy=legacy):
+            raise _not_a_field(text, at, data_format)
+        at += len(field)
+    return fields
+
+
+_LEGACY_FIELD = {
+    DataFormat.ENGINEERING: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
+    DataFormat.PERCENT: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
+    DataFormat.HEX: r"\+9999|-0000|.{1,4}",
+}
+
+
+def _not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
+    fault = Fault.CHARACTER if data_format is DataFormat.HEX else Fault.NUMBER
+    wire = text.encode("ascii", "backslashreplace")
+    return DecodeError(fault, wire, at, field="value", allowed=_FORMS[data_format], section="1.11")
+
+
+def are_fields(fields: tuple[str, ...]) -> bool:
+    """Whether all of `fields` are whole channel fields of some one data format, of whatever firmware."""
+    return any(all(is_field(field, data_format, legacy=True) for field in fields) for data_format in DataFormat)
+
+
+def decode_field(field: str, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> Reading:
+    """Read one channel's field of a DCON report.
+
+    Shape: 7 characters in engineering units and percent, 4 in hex; blanks of the same width for a disabled channel.
+    Unit: that of the type code. A percentage is one of `TypeCode.full_scale`; of types 07 and 1A, one of their span.
+    Special: ``+9999.9`` and ``+999.99`` are over range, ``-9999.9`` and ``-999.99`` under range; with `legacy`
+        (`Profile.legacy_sentinels`) ``+9999`` and ``-0000`` too. For hex see `decode_word`.
+    Errors: `DecodeError` with `Fault.NUMBER` (text) or `CHARACTER` (hex).
+    Manual: 1.11, 2.3; E46, E48, E49, E50.
+
+    >>> decode_field("-025.12", TypeCode.J, DataFormat.ENGINEERING)
+    Reading(value=-25.12, unit=<Unit.CELSIUS: 'degC'>, status=<Status.OK: 'ok'>)
+    """
+    if not is_field(field, data_format, legacy=legacy):
+        raise _not_a_field(field, 0, data_format)
+    if field.isspace():
+        return Reading(None, type_code.unit, Status.DISABLED)
+    if legacy and field in _LEGACY_SENTINELS:
+        return Reading(None, type_code.unit, _LEGACY_SENTINELS[field])
+    if data_format is DataFormat.HEX:
+        return decode_word(int(field, 16), type_code)
+    if field in _TEXT_SENTINELS:
+        return Reading(None, type_code.unit, _TEXT_SENTINELS[field])
+    if data_format is DataFormat.ENGINEERING:
+        return Reading(float(field), type_code.unit)
+    return Reading(_from_part(float(field.replace(".", "")), 10_000, type_code), type_code.unit)
+
+
+def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat) -> str:
+    """Write one channel's field of a DCON report, to the nearest count.
+
+    Errors: `EncodeError` for a value that is not finite, of another unit, or beyond the span of the type (in hex:
+        beyond what its words hold, see `encode_word`).
+    Manual: 1.11; E48, E50.
+
+    >>> encode_field(Reading(15.0, Unit.MILLIVOLT), TypeCode.MV_15, DataFormat.ENGINEERING)
+    '+15.000'
+    """
+    if reading.status is Status.DISABLED:
+        return " " * FIELD_WIDTHS[data_format]
+    if data_format is DataFormat.HEX:
+        return f"{encode_word(reading, type_code):04X}"
+    if reading.status is not Status.OK:
+        return _OUT_OF_RANGE_TEXTS[data_format][reading.status]
+    value = _number(reading, type_code)
+    if data_format is DataFormat.ENGINEERING:
+        low, high, decimals = type_code.minimum, type_code.maximum, type_code.decimals
+    else:
+        value, low, high, decimals = *(_percent(v, type_code) for v in (value, type_code.minimum, type_code.maximum)), 2
+    text = f"{value:+0{_TEXT_WIDTH}.{decimals}f}"
+    if not round(low, decimals) <= float(text) <= round(high, decimals):
+        raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
+    return text
+
+
+def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFormat) -> tuple[Reading, ...]:
+    """Read the fields of all channels, channel 0 first; they are known to be all of some one data format."""
+    if (
+        data_format is DataFormat.ENGINEERING
+        and len(fields[0]) == _TEXT_WIDTH
+        and _NOT_NUMBERS.isdisjoint(fields)
+        and not profile.legacy_sentinels
+    ):  # nearly always, so it is done without a step in Python for each channel
+        return tuple(map(_make_reading, zip(map(float, fields), profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
+    return tuple(
+        decode_field(field, type_code, data_format, legacy=profile.legacy_sentinels)
+        for field, type_code in zip(fields, profile.type_codes, strict=True)
+    )
+
+
+_NOT_NUMBERS = frozenset((*_TEXT_SENTINELS, _TEXT_BLANKS))
+_ALL_OK = repeat(Status.OK)
+_make_reading = MethodType(tuple.__new__, Reading)
+
+# --- 16-bit words -----------------------------------------------------------------------------------------------------
+
+_THERMOCOUPLE_WORDS = {0x7FFF: Status.OVER_RANGE, 0x8000: Status.UNDER_RANGE}
+_MA_4_20_WORDS = {0x0000: Status.UNDER_RANGE}
+_ENGINEERING_WORDS = {0x7FFF: Status.OVER_RANGE, 0x8000: Status.UNDER_RANGE}
+
+
+def _hex_sentinels(type_code: TypeCode) -> dict[int, Status]:
+    if type_code.thermocouple:
+        return _THERMOCOUPLE_WORDS
+    return _MA_4_20_WORDS if type_code is TypeCode.MA_4_20 else {}
+
+
+def decode_word(word: int, type_code: TypeCode) -> Reading:
+    """Read one channel's word in the hex data format, of DCON or Modbus.
+
+    Shape: 0..65535; two's complement but for types 07 and 1A.
+    Unit: upwards of zero `TypeCode.full_scale` / 32767 a count, downwards / 32768; types 07 and 1A: their span / 65535.
+    Special: 7FFF and 8000 of a thermocouple are over and under range. 0000 of type 07 is under range, although exactly
+        4 mA has the same word: engineering text and the range status bits (10129..) tell the two apart.
+    Manual: 1.11, A.5; E45, E46, E47, E54.
+
+    >>> decode_word(0xC000, TypeCode.M).value
+    -100.0
+    """
+    _check_word(word)
+    status = _hex_sentinels(type_code).get(word)
+    if status is not None:
+        return Reading(None, type_code.unit, status)
+    if not type_code.signed_hex:
+        return Reading(_from_part(word, 0xFFFF, type_code), type_code.unit)
+    counts = _signed(word)
+    return Reading(counts * type_code.full_scale / (0x7FFF if counts >= 0 else 0x8000), type_code.unit)
+
+
+def encode_word(reading: Reading, type_code: TypeCode) -> int:
+    """Write one channel's word in the hex data format: the one that `decode_word` reads as nearest to the value.
+
+    Special: the full scale of a thermocouple is 7FFF, as printed, and reads back as over range.
+    Errors: `EncodeError` for a value that is not finite, of another unit or beyond +/- `TypeCode.full_scale` (types 07
+        and 1A: beyond the span), and for a status that has no word with this type.
+    Manual: 1.11, A.5; E46, E47, E51.
+
+    >>> f"{encode_word(Reading(-210.0, Unit.CELSIUS), TypeCode.J):04X}"
+    'DCA2'
+    """
+    if reading.status is not Status.OK:
+        return _sentinel_word(reading, type_code, _hex_sentinels(type_code))
+    value = _number(reading, type_code)
+    if type_code.signed_hex:
+        low, high = -type_code.full_scale, type_code.full_scale
+        counts = round(value * (0x7FFF if value >= 0 else 0x8000) / type_code.full_scale)
+        within = -0x8000 <= counts <= 0x7FFF
+    else:
+        low, high = type_code.minimum, type_code.maximum
+        counts = round((value - low) * 0xFFFF / (high - low))
+        within = 0 <= counts <= 0xFFFF
+    if not within:
+        raise _beyond(reading, type_code, low, high)
+    return counts & 0xFFFF
+
+
+def decode_engineering_word(word: int, type_code: TypeCode) -> Reading:
+    """Read one channel's word in the Modbus engineering data format.
+
+    Shape: 0..65535, two's complement.
+    Unit: 10 ** -`TypeCode.modbus_decimals` of the type's unit a count.
+    Special: 32767 is over range, -32768 under range.
+    Manual: 3.5; E50, E52, E53.
+
+    >>> decode_engineering_word(0xF7CC, TypeCode.J).value
+    -210.0
+    """
+    _check_word(word)
+    status = _ENGINEERING_WORDS.get(word)
+    if status is not None:
+        return Reading(None, type_code.unit, status)
+    return Reading(_signed(word) / 10**type_code.modbus_decimals, type_code.unit)
+
+
+def encode_engineering_word(reading: Reading, type_code: TypeCode) -> int:
+    """Write one channel's word in the Modbus engineering data format, to the nearest count.
+
+    Errors: `EncodeError` for a value that is not finite, of another unit or beyond the span; for a disabled channel.
+    Manual: 3.5.
+
+    >>> encode_engineering_word(Reading(1372.0, Unit.CELSIUS), TypeCode.K)
+    13720
+    """
+    if reading.status is not Status.OK:
+        return _sentinel_word(reading, type_code, _ENGINEERING_WORDS)
+    scale: int = 10**type_code.modbus_decimals
+    counts = round(_number(reading, type_code) * scale)
+    if not type_code.minimum * scale <= counts <= type_code.maximum * scale:
+        raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
+    return counts & 0xFFFF
+
+
+def _check_word(word: int) -> None:
+    if not 0 <= word <= 0xFFFF:
+        raise DecodeError(Fault.NUMBER, str(word).encode(), field="word", allowed="0..65535", section="A.5")
+
+
+def _signed(word: int) -> int:
+    return word - ((word & 0x8000) << 1)
+
+
+def _sentinel_word(reading: Reading, type_code: TypeCode, sentinels: dict[int, Status]) -> int:
+    for word, status in sentinels.items():
+        if status is reading.status:
+            return word
+    allowed = ", ".join(["ok", *(status.value for status in sentinels.values())])
+    raise EncodeError("status", reading.status.value, f"with a word of type {type_code:02X}: {allowed}", "1.11")
+
+
+# --- scales -----------------------------------------------------------------------------------------------------------
+
+
+def _from_part(part: float, whole: int, type_code: TypeCode) -> float:
+    """The value at `part` of `whole` of the scale, with one rounding only."""
+    if type_code.signed_hex:
+        return part * type_code.full_scale / whole
+    return (type_code.minimum * whole + part * (type_code.maximum - type_code.minimum)) / whole
+
+
+def _percent(value: float, type_code: TypeCode) -> float:
+    if type_code.signed_hex:
+        return value * 100 / type_code.full_scale
+    return (value - type_code.minimum) * 100 / (type_code.maximum - type_code.minimum)
+
+
+def _number(reading: Reading, type_code: TypeCode) -> float:
+    """The value of a reading that is to be sent as type `type_code`, which it must fit."""
+    value = reading.value
+    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+        raise EncodeError("value", value, "a finite number", "1.11")
+    if reading.unit is not type_code.unit:
+        raise EncodeError("unit", reading.unit, f"{type_code.unit}, the unit of type {type_code:02X}", "1.11")
+    return value
+
+
+def _beyond(reading: Reading, type_code: TypeCode, low: float, high: float) -> EncodeError:
+    return EncodeError("value", reading.value, f"{low:g}..{high:g} {type_code.unit} (type {type_code:02X})", "1.11")

@@ -1,0 +1,128 @@
+"""Every vector of ``spec/vectors/dcon`` and ``spec/vectors/frames``, from the host's side and from the module's."""
+
+from typing import Any
+
+import pytest
+
+from i7000 import DecodeError, EncodeError, Noise, dcon
+from i7000.dcon.codec import response_candidates
+from i7000.dcon.frame import checksum, seal, split, unseal
+from tests.spec.lint import Record
+from tests.vectors import dcon_vectors, message_of, parameters, profile_of
+
+
+def wire(record: Record, name: str) -> bytes:
+    return bytes.fromhex(record[f"{name}_wire"])
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
+    if vector["command"] is None or "decode-only" in vector["flags"]:
+        pytest.skip("the vector has no command to write")
+    command, profile = message_of(vector["command"]), profile_of(vector["profile"])
+
+    if "host-refuses" in vector["flags"]:
+        with pytest.raises(EncodeError):
+            dcon.encode(command, profile)
+
+    assert wire(vector, "command") == dcon.encode(command, profile, force="host-refuses" in vector["flags"])
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+def test_a_command_is_read_as_the_vector_says(vector: Record) -> None:
+    assert message_of(vector["command"]) == dcon.decode_command(wire(vector, "command"), profile_of(vector["profile"]))
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+def test_a_command_is_among_its_candidates(vector: Record) -> None:
+    assert message_of(vector["command"]) in dcon.candidates(wire(vector, "command"))
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
+    command, profile = message_of(vector["command"]), profile_of(vector["profile"])
+
+    assert message_of(vector["response"]) == dcon.decode_response(wire(vector, "response"), command, profile)
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+def test_a_response_is_among_its_candidates(vector: Record) -> None:
+    assert message_of(vector["response"]) in response_candidates(wire(vector, "response"))
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+def test_a_response_is_not_longer_than_was_told(vector: Record) -> None:
+    command, profile = message_of(vector["command"]), profile_of(vector["profile"])
+
+    assert len(wire(vector, "response")) <= dcon.longest_response(command, profile)
+
+
+@pytest.mark.parametrize(
+    "vector", [case for case in dcon_vectors("response", "refused") if "decode-only" not in case.values[0]["flags"]]
+)
+def test_a_response_is_written_as_the_vector_says(vector: Record) -> None:
+    response, profile = message_of(vector["response"]), profile_of(vector["profile"])
+
+    assert wire(vector, "response") == dcon.encode(response, profile)
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("silence"))
+def test_silence_is_expected_of_broadcasts_only(vector: Record) -> None:
+    command = message_of(vector["command"])
+
+    assert isinstance(command, dcon.Broadcast)
+    assert dcon.longest_response(command, profile_of(vector["profile"])) == 0
+
+
+@pytest.mark.parametrize("vector", dcon_vectors("reject"))
+def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
+    profile = profile_of(vector["profile"])
+
+    def decode() -> Any:
+        if vector["response_wire"] is None:
+            return dcon.decode_command(wire(vector, "command"), profile)
+        return dcon.decode_response(wire(vector, "response"), message_of(vector["command"]), profile)
+
+    with pytest.raises(DecodeError) as caught:
+        decode()
+
+    assert vector["fault"] == caught.value.fault.value
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/frames/checksums.json"))
+def test_checksums_are_those_of_the_vectors(vector: Record) -> None:
+    body = bytes.fromhex(vector["body"])
+
+    assert vector["checksum"] == f"{checksum(body):02X}"
+    assert body == unseal(seal(body, checksum=True), checksum=True)
+
+
+def events(stream: bytes, size: int, *, checksum: bool) -> tuple[list[Record], bytes]:
+    """What `split` tells of a stream that arrives in pieces, adjacent noise put together."""
+    found: list[Record] = []
+    rest = b""
+    for at in range(0, len(stream), size):
+        frames, rest = split(rest + stream[at : at + size], checksum=checksum)
+        for frame in frames:
+            if not isinstance(frame, Noise):
+                found.append({"frame": frame.hex()})
+            elif found and "noise" in found[-1] and "checksum" not in (found[-1]["fault"], frame.fault.value):
+                found[-1]["noise"] += frame.wire.hex()
+            else:
+                found.append({"noise": frame.wire.hex(), "fault": frame.fault.value})
+    return found, rest
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/frames/split.json"))
+def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record) -> None:
+    stream = bytes.fromhex(vector["stream"])
+
+    whole = events(stream, len(stream) or 1, checksum=vector["checksum"])
+
+    assert (vector["events"], bytes.fromhex(vector["rest"])) == whole
+    for size in (1, 2, 3, 7, 64):
+        pieces, rest = events(stream, size, checksum=vector["checksum"])
+        assert [event.get("frame") or event["noise"] for event in pieces] == [
+            event.get("frame") or event["noise"] for event in whole[0]
+        ]
+        assert whole[1] == rest
