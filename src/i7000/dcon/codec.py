@@ -211,8 +211,9 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
         if command.section not in profile.refused
     ]
     if not faults:
-        raise DecodeError(Fault.COMMAND, frame, min(len(body), 3), section="2")
-    raise max(faults, key=lambda fault: fault.offset)
+        fault = Fault.COMMAND if len(body) > 3 else Fault.LENGTH
+        raise DecodeError(fault, frame, min(len(body), 3), allowed="a command of chapter 2", section="2")
+    raise max(faults, key=lambda fault: (fault.fault is not Fault.LENGTH, fault.offset))
 
 
 def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | Refused:
@@ -240,19 +241,13 @@ def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | 
 
 def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # noqa: ANN401 - one with an address
     """Hold what a response repeats of its command against the command."""
-    address = response.address
-    if address == command.answering_address:
-        if not (isinstance(response, ChannelTypeCode) and isinstance(command, ReadChannelTypeCode)):
-            return
-        if response.channel != command.channel:
-            allowed = f"{command.channel:X}"
-            raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed=allowed, section=command.section)
-        return
-    refused_by_old = isinstance(response, Refused) and address == command.address
+    expected = command.address if isinstance(response, Refused) else command.answering_address
     told_in_init_mode = isinstance(command, ReadConfiguration) and command.address == 0
-    if not (refused_by_old or told_in_init_mode):
-        allowed = f"{command.answering_address:02X}"
+    if response.address != expected and not told_in_init_mode:
+        allowed = f"{expected:02X}"
         raise DecodeError(Fault.ADDRESS, frame, 1, field="address", allowed=allowed, section=command.section)
+    if isinstance(response, ChannelTypeCode) and response.channel != getattr(command, "channel", None):
+        raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed="the one asked for", section=command.section)
 
 
 @cache
@@ -338,6 +333,7 @@ def readings(response: AnalogInputs | AnalogInputsHex | SynchronizedData, profil
         that are not known.
     Manual: 1.11, A.5.
 
+    >>> from i7000 import TypeCode
     >>> report = AnalogInputs(("+025.12",) * 7 + ("-9999.9",))
     >>> [reading.value for reading in readings(report, Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8))]
     [25.12, 25.12, 25.12, 25.12, 25.12, 25.12, 25.12, None]
@@ -368,7 +364,8 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
     Errors: `EncodeError` for a reading that its channel cannot have.
     Manual: 1.11, A.5; E50, E51.
 
-    >>> fields([Reading(1.5, TypeCode.V_10.unit)] * 8, Profile(Model.I_7017))[0]
+    >>> from i7000 import Unit
+    >>> fields([Reading(1.5, Unit.VOLT)] * 8, Profile(Model.I_7017))[0]
     '+01.500'
     """
     values = tuple(values)

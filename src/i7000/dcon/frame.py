@@ -137,6 +137,6 @@ def _noise(wire: bytes) -> Noise:
     if wire[0] not in _LEADS:
         return Noise(wire, Fault.LEADING)
     damage = wire.translate(None, _PLAIN)[1:2]
-    if not damage or wire.index(damage, 1) >= LONGEST_FRAME:
+    if (wire.index(damage, 1) if damage else len(wire)) >= LONGEST_FRAME:
         return Noise(wire, Fault.LENGTH)
     return Noise(wire, Fault.TERMINATOR if damage in _LEADS else Fault.CHARACTER)

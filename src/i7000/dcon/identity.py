@@ -23,8 +23,6 @@ __all__ = [
     "SoftInit",
 ]
 
-LONGEST_NAME = 6
-"""Characters of a name that can be set (2.33)."""
 LONGEST_TIMEOUT = 60
 """Seconds of the soft INIT time-out (2.34)."""
 
@@ -93,7 +91,6 @@ class SetModuleName(Command[Acknowledged]):
 
     Wire: ``~AAO(Name)`` -> ``!AA``
     Shape: 1 to 6 characters, printable ASCII without the leading characters of messages (assumption).
-    Errors: `EncodeError` for a longer name.
     Manual: 2.33; E102.
     """
 
@@ -101,12 +98,7 @@ class SetModuleName(Command[Acknowledged]):
     section = "2.33"
     title = "module name"
 
-    name: layout.Name
-
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
-        """Refuse a longer name."""
-        if len(self.name) > LONGEST_NAME:
-            raise EncodeError("name", self.name, f"1 to {LONGEST_NAME} characters", self.section)
+    name: layout.NewName
 
 
 @frozen

@@ -140,20 +140,23 @@ def _temperature(notation: str) -> Part:
 _NAME_CHARACTERS = frozenset(map(chr, range(0x20, 0x7F))) - frozenset("%#$~@!>?")
 
 
-def _text(notation: str) -> Part:
+def _text(notation: str, longest: int = LONGEST_FRAME) -> Part:
     """Characters to the end: all of ASCII that is printed, but for the leading characters (E102)."""
 
     def accepts(value: object) -> bool:
-        return isinstance(value, str) and 0 < len(value) < 248 and _NAME_CHARACTERS.issuperset(value)
+        return isinstance(value, str) and 0 < len(value) <= longest and _NAME_CHARACTERS.issuperset(value)
 
     def parse(text: str) -> str:
-        if not accepts(text):
+        if len(text) > longest:
+            raise DecodeError(Fault.LENGTH, text.encode(), longest, allowed=f"{longest} characters")
+        if not _NAME_CHARACTERS.issuperset(text):
             raise KeyError(text)
         return text
 
+    limit = f"1 to {longest} characters, " if longest < LONGEST_FRAME else ""
     return Part(
-        notation, "printable ASCII without % # $ ~ @ ! > ?, one character at least", "%b", "{}.encode()",
-        accepts, parse, width="rest", longest=lambda _: LONGEST_FRAME,
+        notation, f"{limit}printable ASCII without % # $ ~ @ ! > ?", "%b", "{}.encode()",
+        accepts, parse, width="rest", longest=lambda _: longest,
     )  # fmt: skip
 
 
@@ -209,6 +212,7 @@ OffsetData = Annotated[int, _offset("(Data)")]
 Temperature = Annotated[float, _temperature("(Data)")]
 Text = Annotated[str, _text("(Data)")]
 Name = Annotated[str, _text("(Name)")]
+NewName = Annotated[str, _text("(Name)", longest=6)]
 Values = Annotated[tuple[str, ...], _values("(Data)")]
 HexValues = Annotated[tuple[str, ...], _values("(Data)", DataFormat.HEX)]
 Value = Annotated[str, _value("(Data)")]
@@ -268,16 +272,15 @@ class Layout:
 
     def longest(self, profile: Profile) -> int:
         """Tell the most characters that a body can have."""
-        widths = ((piece, _width(piece, profile)) for _, piece in self.pieces)
         return sum(
-            piece.longest(profile) if width is None and isinstance(piece, Part) and piece.longest else width or 0
-            for piece, width in widths
+            piece.longest(profile) if isinstance(piece, Part) and piece.longest else _width(piece, profile) or 0
+            for _, piece in self.pieces
         )
 
     def explain(self, body: str, profile: Profile, frame: bytes, section: str) -> DecodeError:
         """Tell why `decode` could not read `body`: its length, or the first thing from the left that does not fit."""
         widths = [_width(piece, profile) for _, piece in self.pieces]
-        shortest = sum(width or 1 for width in widths)
+        shortest = sum(1 if width is None else width for width in widths)
         if len(body) < shortest or (len(body) > shortest and None not in widths):
             at = min(len(body), shortest)
             return DecodeError(
@@ -300,13 +303,14 @@ class Layout:
 
 
 def _width(piece: str | Part, profile: Profile) -> int | None:
-    """Characters of a piece; None: all that are left, one at least."""
+    """Characters of a piece; None: all that are left, however many."""
     if isinstance(piece, str):
         return len(piece)
     if piece.width is None:
         return len(piece.notation)
     if piece.width == "rest":
-        return None
+        fixed = piece.contextual and not profile.legacy_sentinels
+        return piece.longest(profile) if fixed and piece.longest else None
     return piece.width if isinstance(piece.width, int) else int(getattr(profile, piece.width))
 
 

@@ -1,0 +1,5 @@
+"""Hypothesis strategies for the public classes."""
+
+
+def register() -> None:
+    """Tell Hypothesis of them."""
