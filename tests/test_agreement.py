@@ -126,7 +126,7 @@ def test_a_field_has_the_digits_of_its_row(command: Any, side: str) -> None:
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
 def test_the_models_that_have_a_command_are_those_of_its_row(command: Any) -> None:
     availability = AVAILABILITY.get(command.section)
-    gates = {model: None for model in Model} if availability is None else availability.gates
+    gates = dict.fromkeys(Model) if availability is None else availability.gates
 
     assert COMMAND_ROWS[command.__name__]["models"] == {
         model.value: as_text(gates[model]) for model in Model if model in gates

@@ -4,7 +4,8 @@ The vocabulary is here; the protocols are the modules `i7000.dcon` and, for M-70
 """
 
 from i7000.errors import DecodeError, EncodeError, Fault, I7000Error, Noise
-from i7000.models import Firmware, Model, Profile, series
+from i7000.models import Firmware, Model, series
+from i7000.profile import Profile
 from i7000.readings import Reading, Status
 from i7000.settings import (
     BaudRate,

@@ -15,7 +15,7 @@ from types import MethodType
 from typing import NamedTuple
 
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.models import Profile
+from i7000.profile import Profile
 from i7000.settings import DataFormat
 from i7000.type_codes import TypeCode, Unit
 

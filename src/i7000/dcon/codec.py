@@ -72,7 +72,8 @@ from i7000.dcon.watchdog import (
     SetHostWatchdogTimeout,
 )
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.models import Firmware, Model, Profile, series
+from i7000.models import Firmware, Model, series
+from i7000.profile import Profile
 from i7000.readings import Reading, decode_field, decode_fields, encode_field
 from i7000.settings import DataFormat
 

@@ -5,7 +5,7 @@ from attrs import field, frozen
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
-from i7000.models import Profile
+from i7000.profile import Profile
 
 __all__ = [
     "CjcEnabled",

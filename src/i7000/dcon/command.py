@@ -10,7 +10,7 @@ from attrs import fields, frozen
 
 from i7000.dcon.layout import Address, Layout
 from i7000.errors import EncodeError
-from i7000.models import Profile
+from i7000.profile import Profile
 
 __all__ = ["Acknowledged", "Broadcast", "Command", "Message", "Refused", "Response"]
 

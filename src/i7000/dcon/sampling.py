@@ -8,7 +8,7 @@ from attrs import field, frozen
 from i7000.dcon import layout
 from i7000.dcon.command import Broadcast, Command, Response
 from i7000.dcon.inputs import check_values
-from i7000.models import Profile
+from i7000.profile import Profile
 
 __all__ = ["ReadSynchronizedData", "SynchronizedData", "SynchronizedSampling"]
 

@@ -1,0 +1,71 @@
+"""The public surface: what ``__all__`` names is there, is documented, and is the whole of it."""
+
+import subprocess
+import sys
+from types import FunctionType, ModuleType
+from typing import Any
+
+import attrs
+import pytest
+
+import i7000
+from i7000 import dcon
+from i7000.dcon.codec import COMMANDS
+from tests.spec.lint import SPEC, rows
+
+
+@pytest.mark.parametrize("module", [i7000, dcon], ids=lambda module: module.__name__)
+def test_every_public_name_is_there_once(module: ModuleType) -> None:
+    assert len(module.__all__) == len(set(module.__all__))
+    assert all(hasattr(module, name) for name in module.__all__)
+
+
+@pytest.mark.parametrize("module", [i7000, dcon], ids=lambda module: module.__name__)
+def test_nothing_public_is_left_out(module: ModuleType) -> None:
+    public = {
+        name for name, value in vars(module).items() if not name.startswith("_") and not isinstance(value, ModuleType)
+    }
+
+    assert set(module.__all__) == public
+
+
+@pytest.mark.parametrize(
+    ("module", "name"), [(module, name) for module in (i7000, dcon) for name in module.__all__ if name[0].isalpha()]
+)
+def test_every_public_class_and_function_is_documented(module: ModuleType, name: str) -> None:
+    value = getattr(module, name)
+    if isinstance(value, type | FunctionType):
+        assert value.__doc__
+        assert not value.__doc__.startswith(f"{name}(")
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
+def test_a_command_states_its_wire_form_and_its_source(command: Any) -> None:
+    document = command.__doc__
+
+    assert f"Wire: ``{command.syntax}``" in document
+    assert f"Manual: {command.section}" in document
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
+def test_a_message_is_frozen(command: Any) -> None:
+    message = object.__new__(command)
+
+    with pytest.raises(attrs.exceptions.FrozenInstanceError):
+        message.address = 1
+
+
+@pytest.mark.parametrize("section", [f"2.{number}" for number in range(1, 44)])
+def test_every_section_of_chapter_2_has_its_class_its_row_and_its_vectors(section: str) -> None:
+    assert [command.section for command in COMMANDS].count(section) == 1
+    assert [row["section"] for row in rows("dcon_commands")].count(section) == 1
+    assert len(list((SPEC / "vectors" / "dcon").glob(f"{section}-*.json"))) == 1
+
+
+def test_importing_the_package_imports_no_extra() -> None:
+    unwanted = {"hypothesis", "rich", "cyclopts", "asyncio", "socket", "json", "logging"}
+    script = f"import sys, i7000.dcon; print(sorted({unwanted} & set(sys.modules)))"
+
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)  # noqa: S603
+
+    assert found.stdout == "[]\n"
