@@ -53,9 +53,7 @@ class Profile:
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
-        if not isinstance(self.model, Model):
-            raise EncodeError("model", self.model, "a member of Model", "1")
-        default = self.model.default_type
+        default = self.model.default_type if isinstance(self.model, Model) else None
         return () if default is None else (default,) * _channels(self)
 
     def __attrs_post_init__(self) -> None:
@@ -96,8 +94,8 @@ class Profile:
         return " ".join(f"{code:02X}" for code in self.model.type_codes if self.supports(code))
 
     def _check_kinds(self) -> None:
-        model = self.model.value
         for name, value, kind in (
+            ("model", self.model, Model),
             ("checksum", self.checksum, bool),
             ("single_ended", self.single_ended, bool),
             ("data_format", self.data_format, DataFormat),
@@ -106,6 +104,7 @@ class Profile:
         ):
             if not isinstance(value, kind):
                 raise EncodeError(name, value, f"a {kind.__name__}", "1.11")
+        model = self.model.value
         if self.firmware is not None and not isinstance(self.firmware, Firmware):
             raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
         if self.single_ended and self.model not in AVAILABILITY["2.43"].gates:

@@ -40,9 +40,13 @@ __all__ = [
 def channels_of(mask: int) -> frozenset[int]:
     """List the channels of a mask.
 
+    Errors: `EncodeError` for a negative number.
+
     >>> sorted(channels_of(0x3A))
     [1, 3, 4, 5]
     """
+    if mask < 0:
+        raise EncodeError("mask", mask, "0 or more", "2.13")
     return frozenset(channel for channel in range(mask.bit_length()) if mask >> channel & 1)
 
 

@@ -1,0 +1,351 @@
+"""What `encode` and the decoders refuse, and how they say it; helpers for drivers."""
+
+from typing import Any
+
+import pytest
+from attrs import evolve
+
+from i7000 import (
+    BaudRate,
+    CharacterFormat,
+    CjcUpdate,
+    DataFormat,
+    DecodeError,
+    EncodeError,
+    Fault,
+    Filter,
+    Firmware,
+    LineSettings,
+    Model,
+    Profile,
+    Protocol,
+    Reading,
+    ReportSettings,
+    Status,
+    TypeCode,
+    Unit,
+    dcon,
+)
+
+I_7017 = Profile(Model.I_7017)
+M_7018 = Profile(Model.M_7018)
+M_7019R = Profile(Model.M_7019R)
+
+
+def configuration(
+    line: LineSettings | None = None, report: ReportSettings | None = None, **values: Any
+) -> dcon.SetConfiguration:
+    command = dcon.SetConfiguration(0x01, 0x01, TypeCode.V_10, line or LineSettings(), report or ReportSettings())
+    return evolve(command, **values)
+
+
+@pytest.mark.parametrize(
+    ("message", "profile", "said"),
+    [
+        (
+            dcon.SetCjcUpdate(0x01, CjcUpdate.STOPPED),
+            M_7018,
+            "M-7018 has no CJC update setting: 7019 series only, manual 2.21",
+        ),
+        (
+            dcon.SetChannelTypeCode(0x01, 0, TypeCode.V_10),
+            Profile(Model.M_7017R, firmware=Firmware("B3.8")),
+            r"M-7017R with firmware B3\.8 has no type code of single channels: .*M-7017R from B3\.9.*, manual 2\.15",
+        ),
+        (dcon.ReadAnalogInput(0x01, 8), I_7017, r"channel cannot be 8: 0\.\.7: I-7017, manual 2\.4"),
+        (
+            dcon.SetChannelTypeCode(0x01, 0, 0x30),
+            M_7019R,
+            "type_code cannot be '30': 00 01 02 .*: M-7019R, manual 2.15",
+        ),
+        (dcon.ReadChannelTypeCode(0x01, 8), M_7019R, "channel cannot be 8"),
+        (dcon.CalibrateChannelZero(0x01, 8), M_7019R, "channel cannot be 8"),
+        (dcon.CalibrateChannelSpan(0x01, 8), M_7019R, "channel cannot be 8"),
+        (dcon.CalibrateCurrentChannelSpan(0x01, 16), Profile(Model.M_7017mC_16), "channel cannot be 16"),
+        (dcon.SetChannelMask(0x01, 0x100), I_7017, r"mask cannot be '100': bits 0\.\.7: I-7017"),
+        (dcon.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9"),
+        (dcon.Diagnostics(0x01, 0x100), M_7019R, "mask cannot be '100'"),
+        (dcon.SetCjcOffset(0x01, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.\+4096 counts"),
+        (dcon.CjcOffset(0x01, -0x1001), M_7018, "offset cannot be -4097"),
+        (dcon.SetSoftInitTimeout(0x01, 61), M_7019R, r"timeout cannot be 61: 0\.\.60 s"),
+        (configuration(type_code=0x00), I_7017, "type_code cannot be '00'"),
+        (configuration(type_code=0xFF), I_7017, "type_code cannot be 'FF'"),
+        (configuration(LineSettings(0x0B)), I_7017, r"baud_rate cannot be '0B': 03\.\.0A"),
+        (
+            configuration(LineSettings(BaudRate.BAUD_9600, CharacterFormat.E81)),
+            Profile(Model.I_7017, firmware=Firmware("B2.5")),
+            "character_format cannot be 'E81': N81 with firmware before B2.6",
+        ),
+        (configuration(None, ReportSettings(3)), I_7017, r"data_format cannot be 3: 0\.\.2"),
+        (configuration(None, ReportSettings(reserved=1)), I_7017, "reserved cannot be 1: 0"),
+        (
+            configuration(None, ReportSettings(fast_mode=True)),
+            I_7017,
+            "fast_mode cannot be True: False: I-7017 has none",
+        ),
+        (
+            configuration(None, ReportSettings(filter=Filter.REJECT_50_HZ)),
+            Profile(Model.M_7019R, firmware=Firmware("B2.6"), type_codes=()),
+            "filter cannot be 'REJECT_50_HZ'",
+        ),
+        (dcon.AnalogInputs(("+00.000",) * 7), I_7017, "values cannot be .*: 8 engineering fields: I-7017"),
+        (dcon.AnalogInputs(("4C53",) * 8), I_7017, "values cannot be"),
+        (dcon.AnalogInputsHex(("+00.000",) * 8), I_7017, "8 hex fields"),
+        (dcon.SynchronizedData(0x01, ("4C53",) * 8, first_reading=True), M_7019R, "values cannot be"),
+        (dcon.AnalogInput("4C53"), I_7017, "value cannot be '4C53': one engineering field"),
+    ],
+    ids=lambda value: type(value).__name__ if isinstance(value, dcon.Message) else "",
+)
+def test_what_a_module_does_not_take_is_refused_with_the_reason(message: Any, profile: Profile, said: str) -> None:
+    with pytest.raises(EncodeError, match=said):
+        dcon.encode(message, profile)
+
+    assert dcon.encode(message, profile, force=True).endswith(b"\r")
+
+
+def test_what_a_module_ignores_may_be_anything() -> None:
+    profile = Profile(Model.M_7017Z)
+
+    assert dcon.encode(configuration(type_code=0x00), profile)[:7] == b"%010100"
+
+
+def test_mixed_types_are_announced_by_ff_where_they_are_possible() -> None:
+    assert dcon.encode(configuration(type_code=0xFF), Profile(Model.M_7017R)) == b"%0101FF0600\r"
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "field"),
+    [
+        (dcon.ReadConfiguration, (256,), "address"),
+        (dcon.ReadConfiguration, (-1,), "address"),
+        (dcon.ReadConfiguration, (True,), "address"),
+        (dcon.ReadConfiguration, ("01",), "address"),
+        (dcon.ReadAnalogInput, (1, 256), "channel"),
+        (dcon.SetChannelMask, (1, 1 << 24), "mask"),
+        (dcon.SetCjcOffset, (1, 0x10000), "offset"),
+        (dcon.SetModuleName, (1, ""), "name"),
+        (dcon.SetModuleName, (1, "7019ABC"), "name"),
+        (dcon.SetModuleName, (1, "é"), "name"),
+        (dcon.SetModuleName, (1, "a#b"), "name"),
+        (dcon.SetModuleName, (1, b"7019"), "name"),
+        (dcon.SetProtocol, (1, 1), "protocol"),
+        (dcon.SetCjcUpdate, (1, 3), "update"),
+        (dcon.CjcTemperature, (float("nan"),), "temperature"),
+        (dcon.CjcTemperature, (float("inf"),), "temperature"),
+        (dcon.CjcTemperature, (31.25,), "temperature"),
+        (dcon.CjcTemperature, (10000.0,), "temperature"),
+        (dcon.CjcTemperature, (31,), "temperature"),
+        (dcon.AnalogInputs, ((),), "values"),
+        (dcon.AnalogInputs, (["+00.000"],), "values"),
+        (dcon.AnalogInputs, (("+00.000", "4C53"),), "values"),
+        (dcon.AnalogInputs, (("nan    ",),), "values"),
+        (dcon.AnalogInputs, ((1.0,),), "values"),
+        (dcon.AnalogInput, ("1e5",), "value"),
+        (dcon.AnalogInput, (None,), "value"),
+        (dcon.SetConfiguration, (1, 1, 8, 6, ReportSettings()), "line_settings"),
+    ],
+)
+def test_a_message_that_has_no_wire_form_cannot_be_made(kind: Any, values: Any, field: str) -> None:
+    with pytest.raises(EncodeError) as caught:
+        kind(*values)
+
+    assert field == caught.value.field
+
+
+def test_a_flag_is_true_or_false() -> None:
+    with pytest.raises(EncodeError, match="enabled cannot be 1: 0 1"):
+        dcon.SetCjcEnabled(0x01, enabled=1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("frame", "fault", "offset"),
+    [
+        (b"", Fault.LENGTH, 0),
+        (b"\r", Fault.LEADING, 0),
+        (b"$\r", Fault.LENGTH, 1),
+        (b"$01\r", Fault.LENGTH, 3),
+        (b"$012", Fault.TERMINATOR, 4),
+        (b"$0\r12\r", Fault.TERMINATOR, 2),
+        (b"$01\xff\r", Fault.CHARACTER, 3),
+        (b"$01\n\r", Fault.CHARACTER, 3),
+        (b"!01\r", Fault.LEADING, 0),
+        (b"x012\r", Fault.LEADING, 0),
+        (b"$0a2\r", Fault.CHARACTER, 1),
+        (b"$012x\r", Fault.LENGTH, 4),
+        (b"$01z\r", Fault.COMMAND, 3),
+        (b"~01C2\r", Fault.VALUE, 4),
+        (b"$01A1\r", Fault.UNSUPPORTED, 3),
+        (b"$017X0R03\r", Fault.CHARACTER, 4),
+        (b"#*\r", Fault.LENGTH, 2),
+        (b"~*\r", Fault.LENGTH, 2),
+        (b"x" * 1_000_000, Fault.LENGTH, 256),
+        (b"$" * 256 + b"\r", Fault.LENGTH, 256),
+    ],
+    ids=lambda value: repr(value)[:20],
+)
+def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes, fault: Fault, offset: int) -> None:
+    profile = Profile(Model.M_7018R)
+
+    with pytest.raises(DecodeError) as caught:
+        dcon.decode_command(frame, profile)
+
+    assert (fault, offset, frame) == (caught.value.fault, caught.value.offset, caught.value.wire)
+
+
+def test_a_bad_checksum_is_told_with_the_right_one() -> None:
+    with pytest.raises(DecodeError, match=r"checksum in checksum at byte 4 of .*allowed: B7") as caught:
+        dcon.decode_command(b"$012B6\r", evolve(I_7017, checksum=True))
+
+    assert Fault.CHECKSUM is caught.value.fault
+
+
+def test_the_letter_o_and_the_digit_0_are_two_commands() -> None:
+    assert dcon.ReadOpenWireDetection(0x01) == dcon.decode_command(b"~01EO\r", M_7019R)
+    assert dcon.SetCalibrationEnabled(0x01, enabled=False) == dcon.decode_command(b"~01E0\r", M_7019R)
+
+
+def test_the_channel_that_was_asked_for_must_be_answered() -> None:
+    with pytest.raises(DecodeError, match="value in channel at byte 4"):
+        dcon.decode_response(b"!01C1R05\r", dcon.ReadChannelTypeCode(0x01, 0), M_7019R)
+
+
+def test_a_configuration_is_changed_in_one_place_and_written_back() -> None:
+    told = dcon.decode_response(b"!018A46C2\r", dcon.ReadConfiguration(0x01), I_7017)
+    assert isinstance(told, dcon.Configuration)
+
+    command = told.command(report_settings=evolve(told.report_settings, data_format=DataFormat.PERCENT))
+
+    assert dcon.encode(command, I_7017, force=True) == b"%01018A46C1\r"
+
+
+def test_masks_and_channels_are_two_writings_of_one_thing() -> None:
+    assert {0, 19} == dcon.channels_of(0x80001)
+    assert dcon.mask_of([0, 19, 0]) == 0x80001
+    with pytest.raises(EncodeError, match=r"channel cannot be 20: 0\.\.19"):
+        dcon.mask_of({20})
+
+
+def test_a_negative_mask_has_no_channels() -> None:
+    with pytest.raises(EncodeError, match="mask cannot be -1"):
+        dcon.channels_of(-1)
+
+
+@pytest.mark.parametrize(
+    ("command", "profile", "length"),
+    [
+        (dcon.HostOk(), I_7017, 0),
+        (dcon.ReadConfiguration(0x01), I_7017, 10),
+        (dcon.ReadConfiguration(0x01), evolve(I_7017, checksum=True), 12),
+        (dcon.ReadAnalogInputs(0x01), Profile(Model.M_7017Z, single_ended=True), 142),
+        (dcon.ReadAnalogInputs(0x01), evolve(I_7017, data_format=DataFormat.HEX), 34),
+        (dcon.ReadAnalogInput(0x01, 0), I_7017, 9),
+        (dcon.ReadSynchronizedData(0x01), Profile(Model.M_7019Z, checksum=True), 77),
+        (dcon.ReadChannelMask(0x01), Profile(Model.M_7017Z, single_ended=True), 10),
+        (dcon.ReadModuleName(0x01), I_7017, 256),
+    ],
+    ids=repr,
+)
+def test_the_longest_response_is_counted_in_bytes(command: Any, profile: Profile, length: int) -> None:
+    assert length == dcon.longest_response(command, profile)
+
+
+def test_a_status_byte_is_kept_and_read() -> None:
+    told = dcon.HostWatchdogStatus(0x01, 0x84)
+
+    assert (told.enabled, told.timed_out) == (True, True)
+    assert (
+        dcon.HostWatchdogStatus(0x01, 0x7B).enabled,
+        dcon.HostWatchdogStatus(0x01, 0x7B).timed_out,
+    ) == (False, False)
+
+
+def test_an_offset_is_told_in_degrees() -> None:
+    assert dcon.CjcOffset(0x01, -16).celsius == -0.16
+
+
+def test_a_message_is_shown_with_its_addresses_in_hex() -> None:
+    assert repr(dcon.SetChannelMask(0x1F, 0x3A)) == "SetChannelMask(address=0x1F, mask=0x3A)"
+    assert repr(dcon.HostOk()) == "HostOk()"
+    assert repr(dcon.ProtocolSetting(1, modbus_supported=True, protocol=Protocol.DCON)).startswith(
+        "ProtocolSetting(address=0x01, "
+    )
+
+
+# --- readings ---------------------------------------------------------------------------------------------------------
+
+
+def test_disabled_channels_keep_their_places() -> None:
+    data = b">+01.000       -01.000" + b"+00.000" * 5 + b"\r"
+    response = dcon.decode_response(data, dcon.ReadAnalogInputs(0x01), M_7019R)
+    assert isinstance(response, dcon.AnalogInputs)
+
+    told = dcon.readings(response, M_7019R)
+
+    assert [reading.value for reading in told[:3]] == [1.0, None, -1.0]
+    assert Status.DISABLED is told[1].status
+    assert response.values == dcon.fields(told, M_7019R)
+
+
+def test_a_single_reading_has_the_type_of_its_channel() -> None:
+    mixed = evolve(M_7019R, type_codes=(TypeCode.V_10,) * 7 + (TypeCode.J,))
+
+    assert Reading(25.13, Unit.CELSIUS) == dcon.reading(dcon.AnalogInput("+025.13"), 7, mixed)
+
+
+@pytest.mark.parametrize(
+    "profile", [Profile(Model.I_7018BL), Profile(Model.M_7019Z)], ids=["unknown types", "ten channels"]
+)
+def test_readings_need_the_types_of_all_channels(profile: Profile) -> None:
+    with pytest.raises(DecodeError, match="a profile that has a type code for each channel"):
+        dcon.readings(dcon.AnalogInputs(("+00.000",) * 8), profile)
+
+
+@pytest.mark.parametrize("channel", [8, -1])
+def test_a_reading_needs_a_channel_that_is_there(channel: int) -> None:
+    with pytest.raises(DecodeError, match="type_codes"):
+        dcon.reading(dcon.AnalogInput("+00.000"), channel, I_7017)
+
+
+@pytest.mark.parametrize("values", [("4C53",) * 8, ("+9999",) * 8])
+def test_readings_of_another_data_format_are_refused(values: tuple[str, ...]) -> None:
+    with pytest.raises(DecodeError, match="number in value"):
+        dcon.readings(dcon.AnalogInputs(values), I_7017)
+
+
+def test_hex_readings_are_hex_whatever_the_data_format_is() -> None:
+    told = dcon.readings(dcon.AnalogInputsHex(("7FFF",) * 8), I_7017)
+
+    assert [reading.value for reading in told] == [10.0] * 8
+
+
+def test_fields_are_as_many_as_channels() -> None:
+    with pytest.raises(EncodeError, match="readings cannot be 1: 8, as many as type codes"):
+        dcon.fields([Reading(0.0, Unit.VOLT)], I_7017)
+
+
+# --- unknown modules --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("frame", "commands"),
+    [
+        (b"$01A\r", [dcon.ReadAnalogInputsHex, dcon.ReadCjcUpdate]),
+        (b"$010C0\r", [dcon.CalibrateCurrentChannelSpan, dcon.CalibrateChannelZero]),
+        (b"#0184\r", [dcon.ReadAnalogInputs, dcon.ReadAnalogInput]),
+        (b"#**\r", [dcon.SynchronizedSampling]),
+    ],
+)
+def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, commands: list[Any]) -> None:
+    assert commands == [type(command) for command in dcon.candidates(frame)]
+
+
+@pytest.mark.parametrize("frame", [b"", b"$01z\r", b"$012B6", b"!01\r", b"x" * 300])
+def test_what_no_module_understands_has_no_candidates(frame: bytes) -> None:
+    with pytest.raises(DecodeError):
+        dcon.candidates(frame)
+
+
+@pytest.mark.parametrize("frame", [b"", b"$012\r", b"!01\xff\r", b"!\r", b">zz\r"])
+def test_what_no_module_says_has_no_candidates(frame: bytes) -> None:
+    with pytest.raises(DecodeError):
+        dcon.response_candidates(frame)

@@ -1,0 +1,42 @@
+"""Errors carry the facts, name them in their text, and survive pickling."""
+
+import pickle
+
+from i7000 import DecodeError, EncodeError, Fault
+
+
+def test_an_encode_error_names_field_value_allowed_and_section() -> None:
+    error = EncodeError("channel", 9, "0..7", "2.4")
+
+    assert str(error) == "channel cannot be 9: 0..7, manual 2.4"
+
+
+def test_an_encode_error_with_a_reason_tells_it() -> None:
+    error = EncodeError("model", "M-7018", "7019 series only", "2.21", "M-7018 has no CJC update setting")
+
+    assert str(error) == "M-7018 has no CJC update setting: 7019 series only, manual 2.21"
+
+
+def test_a_decode_error_names_what_is_wrong_and_where() -> None:
+    error = DecodeError(Fault.VALUE, b"~01C2\r", 4, field="enabled", allowed="0 1", section="2.30")
+
+    assert str(error) == "value in enabled at byte 4 of b'~01C2\\r'; allowed: 0 1 (manual 2.30)"
+
+
+def test_a_decode_error_of_few_facts_is_short() -> None:
+    assert str(DecodeError(Fault.LENGTH, b"")) == "length at byte 0 of b''"
+
+
+def test_a_long_frame_is_kept_whole_and_shown_in_part() -> None:
+    error = DecodeError(Fault.LENGTH, b"x" * 1_000_000, 256)
+
+    assert len(error.wire) == 1_000_000
+    assert len(str(error)) < 200
+
+
+def test_errors_survive_pickling() -> None:
+    decode = DecodeError(Fault.VALUE, b"~01C2\r", 4, field="enabled", allowed="0 1", section="2.30")
+    encode = EncodeError("model", "M-7018", "7019 series only", "2.21", "reason")
+
+    for error in (decode, encode):
+        assert vars(error) == vars(pickle.loads(pickle.dumps(error)))  # noqa: S301
