@@ -1,0 +1,34 @@
+"""The compiler of syntax statements."""
+
+import pytest
+from attrs import frozen
+
+from i7000 import DecodeError, Fault, Model, Profile, dcon
+from i7000.dcon import layout
+
+
+def test_a_field_without_its_notation_in_the_syntax_is_a_slip_of_ours() -> None:
+    @frozen
+    class Slip(dcon.Command[dcon.Acknowledged]):
+        syntax = "$AA9"
+        section = "2.18"
+
+        offset: layout.Offset
+
+    with pytest.raises(TypeError, match=r"Slip: '\$AA9' has no 'SNNNN'"):
+        _ = Slip.layout
+
+
+@pytest.mark.parametrize("data", ["0031.2+", "+0031,2", "+003a.2", "*0031.2"])
+def test_a_temperature_is_a_sign_and_five_digits_with_a_point(data: str) -> None:
+    with pytest.raises(DecodeError) as caught:
+        dcon.decode_response(f">{data}\r".encode(), dcon.ReadCjcTemperature(0x01), Profile(Model.I_7018))
+
+    assert (caught.value.fault, caught.value.offset) == (Fault.NUMBER, 1)
+
+
+def test_a_name_with_a_leading_character_is_refused() -> None:
+    with pytest.raises(DecodeError) as caught:
+        dcon.decode_response(b"!0170#18\r", dcon.ReadModuleName(0x01), Profile(Model.I_7018))
+
+    assert caught.value.fault is Fault.CHARACTER

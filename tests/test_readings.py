@@ -1,0 +1,161 @@
+"""What readings refuse, and where two meanings share one field."""
+
+import math
+
+import pytest
+
+from i7000 import DataFormat, DecodeError, EncodeError, Fault, Reading, Status, TypeCode, Unit
+from i7000.readings import (
+    decode_engineering_word,
+    decode_field,
+    decode_word,
+    encode_engineering_word,
+    encode_field,
+    encode_word,
+    split_fields,
+)
+
+ENCODERS = [
+    lambda reading, code: encode_field(reading, code, DataFormat.ENGINEERING),
+    lambda reading, code: encode_field(reading, code, DataFormat.PERCENT),
+    lambda reading, code: encode_field(reading, code, DataFormat.HEX),
+    encode_engineering_word,
+]
+
+
+@pytest.mark.parametrize("encode", ENCODERS, ids=["engineering", "percent", "hex", "modbus engineering"])
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, None, True, "1.0", 10.1, -10.1])
+def test_a_value_that_the_format_cannot_say_is_refused(encode: object, value: float) -> None:
+    assert callable(encode)
+
+    with pytest.raises(EncodeError, match="value cannot be"):
+        encode(Reading(value, Unit.VOLT), TypeCode.V_10)
+
+
+@pytest.mark.parametrize("encode", ENCODERS, ids=["engineering", "percent", "hex", "modbus engineering"])
+def test_a_value_in_another_unit_is_refused(encode: object) -> None:
+    assert callable(encode)
+
+    with pytest.raises(EncodeError, match="V, the unit of type 08"):
+        encode(Reading(1.0, Unit.MILLIVOLT), TypeCode.V_10)
+
+
+@pytest.mark.parametrize("encode", ENCODERS, ids=["engineering", "percent", "hex", "modbus engineering"])
+@pytest.mark.parametrize("value", [3.99, 20.01])
+def test_a_current_beyond_4_to_20_ma_is_refused(encode: object, value: float) -> None:
+    assert callable(encode)
+
+    with pytest.raises(EncodeError, match=r"4\.\.20 mA \(type 07\)"):
+        encode(Reading(value, Unit.MILLIAMPERE), TypeCode.MA_4_20)
+
+
+def test_a_temperature_below_the_span_has_a_word_but_no_text() -> None:
+    reading = decode_word(0x9000, TypeCode.K)
+
+    assert encode_word(reading, TypeCode.K) == 0x9000
+    with pytest.raises(EncodeError, match=r"-270\.\.1372 degC"):
+        encode_field(reading, TypeCode.K, DataFormat.ENGINEERING)
+
+
+@pytest.mark.parametrize(
+    ("field", "data_format", "fault"),
+    [
+        ("", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("025.12 ", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("+025,12", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("+02512.", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("+1e5.00", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("+\u066025.12", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("+01.500", DataFormat.PERCENT, Fault.NUMBER),
+        ("+9999", DataFormat.ENGINEERING, Fault.NUMBER),
+        ("4c53", DataFormat.HEX, Fault.CHARACTER),
+        ("+4C5", DataFormat.HEX, Fault.CHARACTER),
+        ("4C533", DataFormat.HEX, Fault.CHARACTER),
+        ("       ", DataFormat.HEX, Fault.CHARACTER),
+    ],
+)
+def test_a_field_of_another_form_is_refused(field: str, data_format: DataFormat, fault: Fault) -> None:
+    with pytest.raises(DecodeError) as caught:
+        decode_field(field, TypeCode.V_10, data_format)
+
+    assert fault is caught.value.fault
+
+
+@pytest.mark.parametrize("decode", [decode_word, decode_engineering_word])
+@pytest.mark.parametrize("word", [-1, 65536])
+def test_a_word_has_16_bits(decode: object, word: int) -> None:
+    assert callable(decode)
+
+    with pytest.raises(DecodeError, match=r"0\.\.65535"):
+        decode(word, TypeCode.V_10)
+
+
+@pytest.mark.parametrize(
+    ("status", "code", "word"),
+    [
+        (Status.OVER_RANGE, TypeCode.K, 0x7FFF),
+        (Status.UNDER_RANGE, TypeCode.K, 0x8000),
+        (Status.UNDER_RANGE, TypeCode.MA_4_20, 0x0000),
+    ],
+)
+def test_a_status_has_the_word_that_it_is_read_from(status: Status, code: TypeCode, word: int) -> None:
+    assert word == encode_word(Reading(None, code.unit, status), code)
+    assert status is decode_word(word, code).status
+
+
+@pytest.mark.parametrize(
+    ("status", "code"),
+    [
+        (Status.OVER_RANGE, TypeCode.V_10),
+        (Status.UNDER_RANGE, TypeCode.MA_0_20),
+        (Status.OVER_RANGE, TypeCode.MA_4_20),
+        (Status.DISABLED, TypeCode.K),
+    ],
+)
+def test_a_status_without_a_word_is_refused(status: Status, code: TypeCode) -> None:
+    with pytest.raises(EncodeError, match=f"status cannot be '{status.value}': with a word of type {code:02X}: ok"):
+        encode_word(Reading(None, code.unit, status), code)
+
+
+@pytest.mark.parametrize(("status", "word"), [(Status.OVER_RANGE, 0x7FFF), (Status.UNDER_RANGE, 0x8000)])
+def test_modbus_engineering_words_out_of_range_are_the_same_for_every_type(status: Status, word: int) -> None:
+    for code in TypeCode:
+        reading = Reading(None, code.unit, status)
+
+        assert word == encode_engineering_word(reading, code)
+        assert reading == decode_engineering_word(word, code)
+
+
+def test_the_full_scale_of_a_thermocouple_has_the_word_of_over_range() -> None:
+    assert encode_word(Reading(760.0, Unit.CELSIUS), TypeCode.J) == 0x7FFF
+    assert decode_word(0x7FFF, TypeCode.J).status is Status.OVER_RANGE
+
+
+def test_exactly_4_ma_has_the_word_of_under_range() -> None:
+    assert encode_word(Reading(4.0, Unit.MILLIAMPERE), TypeCode.MA_4_20) == 0x0000
+    assert decode_word(0x0000, TypeCode.MA_4_20).status is Status.UNDER_RANGE
+
+
+@pytest.mark.parametrize("text", ["", "+00.000" * 7, "+00.000" * 9, "+00.000" * 7 + "+00.00"])
+def test_fields_are_as_many_as_channels(text: str) -> None:
+    with pytest.raises(DecodeError) as caught:
+        split_fields(text, 8, DataFormat.ENGINEERING)
+
+    assert Fault.LENGTH is caught.value.fault
+
+
+def test_the_first_bad_field_is_pointed_at() -> None:
+    with pytest.raises(DecodeError) as caught:
+        split_fields("+00.000" * 2 + "+0a.000" * 6, 8, DataFormat.ENGINEERING)
+
+    assert (caught.value.fault, caught.value.offset) == (Fault.NUMBER, 14)
+
+
+@pytest.mark.parametrize("data_format", DataFormat)
+def test_a_disabled_channel_is_blanks_both_ways(data_format: DataFormat) -> None:
+    reading = Reading(None, Unit.VOLT, Status.DISABLED)
+
+    field = encode_field(reading, TypeCode.V_10, data_format)
+
+    assert field.isspace()
+    assert reading == decode_field(field, TypeCode.V_10, data_format)
