@@ -21,14 +21,15 @@ Record: TypeAlias = dict[str, Any]
 
 SPEC = Path(__file__).parents[2] / "spec"
 
-VECTOR_SCHEMAS = {
+SCHEMAS = {
+    "tables/modbus_registers": "modbus_registers",
     "vectors/dcon": "dcon_vectors",
     "vectors/readings": "reading_vectors",
     "vectors/readings/legacy.json": "legacy_vectors",
     "vectors/frames/checksums.json": "checksum_vectors",
     "vectors/frames/split.json": "split_vectors",
 }
-"""Which schema the vectors of a file, or else of its folder, have; a table has the schema of its own name."""
+"""Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""
 
 
 def data_files() -> list[Path]:
@@ -39,6 +40,11 @@ def data_files() -> list[Path]:
 def schema_files() -> list[Path]:
     """Every schema."""
     return sorted((SPEC / "schema").glob("*.json"))
+
+
+def table_files(folder: str = "") -> list[Path]:
+    """Every file under ``spec/tables/`` and the folder named."""
+    return sorted((SPEC / "tables" / folder).rglob("*.json"))
 
 
 def vector_files(folder: str = "") -> list[Path]:
@@ -67,7 +73,7 @@ def _unique(pairs: list[tuple[str, Json]]) -> Record:
 
 
 def rows(table: str) -> list[Record]:
-    """The rows of one table, by its name without folder and ending; ``errata`` too."""
+    """The rows of one table, by its name under ``tables/`` without ending; ``errata`` too."""
     path = SPEC / f"{table}.json" if table == "errata" else SPEC / "tables" / f"{table}.json"
     found: list[Record] = load(path)["rows"]
     return found
@@ -89,7 +95,7 @@ def records(data: Mapping[str, Json]) -> list[Record]:
 def schema_path(path: Path) -> Path:
     """The file with the schema of a data file."""
     own = name(path)
-    stem = VECTOR_SCHEMAS.get(own) or VECTOR_SCHEMAS.get(name(path.parent)) or path.stem
+    stem = SCHEMAS.get(own) or SCHEMAS.get(name(path.parent)) or path.stem
     return SPEC / "schema" / f"{stem}.json"
 
 
