@@ -64,7 +64,7 @@ def errata_of(record: Record) -> list[str]:
     return [*record.get("errata", []), *([] if one is None else [one])]
 
 
-def objects(schema: Any) -> list[Record]:  # noqa: ANN401
+def objects(schema: Any) -> list[Record]:
     """Every part of a schema that describes an object."""
     if isinstance(schema, list):
         return list(chain.from_iterable(map(objects, schema)))
@@ -184,9 +184,9 @@ def test_whoever_uses_an_erratum_exists(erratum: str) -> None:
 def test_an_erratum_names_the_commands_and_tables_that_name_it(erratum: str) -> None:
     commands = {row["name"] for row in COMMANDS.values() if erratum in row["errata"]}
     tables = {
-        f"tables/{table}.json"
-        for table in ("type_codes", "full_scale", "settings", "models")
-        if any(erratum in row["errata"] for row in lint.rows(table))
+        lint.name(path)
+        for path in lint.table_files()
+        if path.stem != "dcon_commands" and any(erratum in row["errata"] for row in lint.records(lint.load(path)))
     }
     users = ERRATA[erratum]["used_by"]
 
