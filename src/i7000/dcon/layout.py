@@ -23,7 +23,7 @@ from i7000.type_codes import TypeCode
 # --- parts ------------------------------------------------------------------------------------------------------------
 
 
-@frozen
+@frozen(eq=False)
 class Part:
     """One field's place in a syntax."""
 
@@ -50,6 +50,7 @@ class Part:
 
 
 _PAIRS = {f"{byte:02X}": byte for byte in range(256)}
+_TYPE_CODES = {text: TypeCode.of(byte) for text, byte in _PAIRS.items()}
 _DIGITS = "0123456789ABCDEF"
 
 
@@ -71,8 +72,7 @@ def _byte(notation: str) -> Part:
 
 def _type_code(notation: str) -> Part:
     """Two hex digits that are a type code, or a number that is none."""
-    of = {text: TypeCode.of(byte) for text, byte in _PAIRS.items()}
-    return Part(notation, "00..FF", "%02X", "{}", lambda value: _is_int(value, 0, 0xFF), of.__getitem__)
+    return Part(notation, "00..FF", "%02X", "{}", lambda value: _is_int(value, 0, 0xFF), _TYPE_CODES.__getitem__)
 
 
 def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings]) -> Part:
@@ -231,7 +231,7 @@ StatusByte = Annotated[int, _byte("SS")]
 # --- layouts ----------------------------------------------------------------------------------------------------------
 
 
-@frozen
+@frozen(eq=False)
 class Layout:
     """The compiled syntax of one message class."""
 

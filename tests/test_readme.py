@@ -1,0 +1,37 @@
+"""What the README shows is what happens."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from i7000 import Fault
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    (example,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+
+    exec(compile(example, "README.md", "exec"), {})  # noqa: S102
+
+    printed = capsys.readouterr().out.splitlines()
+    assert len(printed) == 8
+    assert printed[2] == "2 None degC disabled"
+    assert printed[3] == "3 None degC over_range"
+    assert printed[0] == "0 25.1 degC ok"
+
+
+def test_every_fault_is_explained() -> None:
+    assert {fault.name for fault in Fault} == set(re.findall(r"^\| `([A-Z_]+)` \|", README, re.MULTILINE))
+
+
+def test_there_is_one_command_to_see_it_work_and_one_to_run_the_tests() -> None:
+    for heading in ("See it work", "Run the tests"):
+        (block,) = re.findall(rf"## {heading}\n.*?```sh\n(.*?)```", README, re.DOTALL)
+        assert block.count("\n") == 1
+
+
+@pytest.mark.parametrize("path", sorted(set(re.findall(r"`((?:spec|src|tests)/[\w./]*)`", README))))
+def test_every_path_that_is_named_exists(path: str) -> None:
+    assert (Path(__file__).parents[1] / path).exists()
