@@ -1,5 +1,0 @@
-"""Hypothesis strategies for the public classes."""
-
-
-def register() -> None:
-    """Tell Hypothesis of them."""

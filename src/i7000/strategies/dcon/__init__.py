@@ -1,0 +1,29 @@
+"""Strategies for DCON: messages and whole exchanges, damaged frames, streams of frames and noise."""
+
+from i7000.strategies.dcon.frames import DAMAGES, Damage, Stream, chunkings, damaged, frames, streams
+from i7000.strategies.dcon.messages import (
+    Exchange,
+    any_commands,
+    channel_fields,
+    commands,
+    exchanges,
+    messages,
+    responses,
+)
+
+__all__ = [
+    "DAMAGES",
+    "Damage",
+    "Exchange",
+    "Stream",
+    "any_commands",
+    "channel_fields",
+    "chunkings",
+    "commands",
+    "damaged",
+    "exchanges",
+    "frames",
+    "messages",
+    "responses",
+    "streams",
+]

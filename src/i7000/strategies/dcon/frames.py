@@ -1,0 +1,164 @@
+"""Strategies for DCON frames: what can be done to them, and the streams in which they come.
+
+Laws: what happens to a frame has a name and leaves other bytes; what there is to find in a stream is known from the way
+it was made, not from `i7000.dcon.split`.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TypeGuard
+
+from attrs import frozen
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from i7000 import Fault, Noise
+from i7000.dcon import LONGEST_FRAME, seal
+from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS
+
+__all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "streams"]
+
+# --- damage -----------------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Damage:
+    """A frame, what was done to it, and the bytes that came of it, which are others."""
+
+    label: str
+    """One of `DAMAGES`."""
+    frame: bytes
+    wire: bytes
+
+
+def damaged(frame: bytes) -> SearchStrategy[Damage]:
+    """Make damaged frames of a frame, sealed or not."""
+    labels = [label for label, damages in DAMAGES.items() if any(wire != frame for wire in damages(frame))]
+    return st.sampled_from(labels).flatmap(lambda label: _damaged(frame, label))
+
+
+def _damaged(frame: bytes, label: str) -> SearchStrategy[Damage]:
+    wires = [wire for wire in DAMAGES[label](frame) if wire != frame]
+    return st.sampled_from(wires).map(lambda wire: Damage(label, frame, wire))
+
+
+def _each(damage: Callable[[bytes, bytes, bytes], bytes]) -> Callable[[bytes], Iterator[bytes]]:
+    """Do `damage` to each byte, between what is before and after it."""
+    return lambda frame: (damage(frame[:at], frame[at : at + 1], frame[at + 1 :]) for at in range(len(frame)))
+
+
+def _flipped_bits(frame: bytes) -> Iterator[bytes]:
+    for at, byte in enumerate(frame):
+        for bit in range(8):
+            yield frame[:at] + bytes((byte ^ 1 << bit,)) + frame[at + 1 :]
+
+
+def _wrong_checksums(frame: bytes) -> Iterator[bytes]:
+    for value in range(0x100):
+        yield frame[:-3] + b"%02X\r" % value
+
+
+DAMAGES: Mapping[str, Callable[[bytes], Iterator[bytes]]] = {
+    "flipped bit": _flipped_bits,
+    "lost byte": _each(lambda before, _, after: before + after),
+    "doubled byte": _each(lambda before, byte, after: before + byte + byte + after),
+    "swapped neighbours": _each(lambda before, byte, after: before + after[:1] + byte + after[1:]),
+    "lower-cased": _each(lambda before, byte, after: before + byte.lower() + after),
+    "truncated": _each(lambda before, _, __: before),
+    "wrong checksum": _wrong_checksums,
+    "foreign byte": _each(lambda before, byte, after: before + b"\xff" + byte + after),
+    "early end": _each(lambda before, byte, after: before + b"\r" + byte + after),
+    "glued": lambda frame: iter((frame + frame,)),
+}
+"""What can happen to a frame, by its label: every one of the wires that may come of it."""
+
+# --- streams ----------------------------------------------------------------------------------------------------------
+
+_LEADS = COMMAND_LEADS + RESPONSE_LEADS
+_PLAIN = bytes(sorted(set(range(0x20, 0x7F)) - set(_LEADS)))
+_FOREIGN = bytes(sorted(set(range(0x100)) - set(range(0x20, 0x7F)) - set(b"\r")))
+
+
+def _text(alphabet: bytes, smallest: int, longest: int) -> SearchStrategy[bytes]:
+    return st.lists(st.sampled_from(alphabet), min_size=smallest, max_size=longest).map(bytes)
+
+
+def _beginnings() -> SearchStrategy[bytes]:
+    """Make frames that have not ended."""
+    return st.builds(bytes.__add__, st.sampled_from([bytes((lead,)) for lead in _LEADS]), _text(_PLAIN, 0, 20))
+
+
+def frames(*, checksum: bool = False) -> SearchStrategy[bytes]:
+    """Make frames that `i7000.dcon.split` takes for whole, whether or not they are messages."""
+    return _beginnings().map(lambda body: seal(body, checksum=checksum))
+
+
+@frozen
+class Stream:
+    """What a line delivered, and what there is to find in it."""
+
+    wire: bytes
+    checksum: bool
+    events: tuple[bytes | Noise, ...]
+    """Frames, and the noise between them in runs as long as can be, but for a frame with a wrong checksum."""
+    rest: bytes
+
+
+@st.composite
+def streams(draw: st.DrawFn, *, checksum: bool = False) -> Stream:
+    """Make streams of frames and noise."""
+    events: list[bytes | Noise] = []
+    kinds = [_frame, _cut_frame, _between, _foreign, _overlong, *([_wrongly_sealed] if checksum else [])]
+    for kind in draw(st.lists(st.sampled_from(kinds), max_size=8)):
+        for event in kind(draw, checksum):
+            if events and _is_run(events[-1]) and _is_run(event):
+                events[-1] = Noise(events[-1].wire + event.wire, events[-1].fault)
+            else:
+                events.append(event)
+    rest = draw(st.just(b"") | _beginnings())
+    wire = b"".join(event.wire if isinstance(event, Noise) else event for event in events) + rest
+    return Stream(wire, checksum, tuple(events), rest)
+
+
+def _is_run(event: bytes | Noise) -> TypeGuard[Noise]:
+    return isinstance(event, Noise) and event.fault is not Fault.CHECKSUM
+
+
+_Events = list[bytes | Noise]
+
+
+def _frame(draw: st.DrawFn, checksum: bool) -> _Events:  # noqa: FBT001 - as its fellows
+    return [draw(frames(checksum=checksum))]
+
+
+def _cut_frame(draw: st.DrawFn, checksum: bool) -> _Events:  # noqa: FBT001
+    return [Noise(draw(_beginnings()), Fault.TERMINATOR), draw(frames(checksum=checksum))]
+
+
+def _between(draw: st.DrawFn, _: object) -> _Events:
+    return [Noise(draw(_text(_PLAIN + _FOREIGN + b"\r", 1, 20)), Fault.LEADING)]
+
+
+def _foreign(draw: st.DrawFn, _: object) -> _Events:
+    foreign = draw(_text(_FOREIGN, 1, 2)) + draw(_text(_PLAIN + _FOREIGN + b"\r", 0, 20))
+    return [Noise(draw(_beginnings()) + foreign, Fault.CHARACTER)]
+
+
+def _overlong(draw: st.DrawFn, _: object) -> _Events:
+    return [Noise(draw(_beginnings()) + b"0" * LONGEST_FRAME + draw(st.sampled_from((b"", b"\r"))), Fault.LENGTH)]
+
+
+def _wrongly_sealed(draw: st.DrawFn, _: object) -> _Events:
+    right = draw(frames(checksum=True))
+    wrong = draw(st.sampled_from([wire for wire in _wrong_checksums(right) if wire != right]))
+    return [Noise(wrong, Fault.CHECKSUM)]
+
+
+@st.composite
+def chunkings(draw: st.DrawFn, stream: bytes) -> tuple[bytes, ...]:
+    """Make the pieces in which a stream may arrive: one, many, or each of the same size."""
+    length = len(stream)
+    cuts = draw(
+        st.lists(st.integers(0, length), max_size=8).map(sorted)
+        | st.integers(1, 64).map(lambda size: list(range(0, length, size)))
+    )
+    return tuple(stream[start:end] for start, end in zip((0, *cuts), (*cuts, length), strict=True))

@@ -1,0 +1,222 @@
+"""Strategies for DCON messages and for whole exchanges.
+
+Laws: the strategy of a message is made from its syntax, part by part, so a new command has one at once; what a module
+is held to take is asked of the message's own `check`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from enum import Enum
+from functools import cache
+from typing import Any, TypeVar, cast, get_args
+
+from attrs import Attribute, fields, frozen
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Profile, ReportSettings, TypeCode
+from i7000.dcon import (
+    COMMANDS,
+    LONGEST_FRAME,
+    AnyCommand,
+    Broadcast,
+    Command,
+    Message,
+    ReadConfiguration,
+    Refused,
+    Response,
+    encode,
+    layout,
+)
+from i7000.dcon.cold_junction import OFFSET_LIMIT
+from i7000.dcon.identity import LONGEST_TIMEOUT
+from i7000.dcon.layout import Part
+from i7000.readings import FIELD_WIDTHS, encode_field
+from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
+
+__all__ = ["Exchange", "any_commands", "channel_fields", "commands", "exchanges", "messages", "responses"]
+
+MessageT = TypeVar("MessageT", bound=Message)
+R = TypeVar("R", bound=Response)
+
+_COMMANDS = sorted(COMMANDS, key=lambda command: (issubclass(command, Broadcast), len(command.syntax)))
+"""The simplest first: `ReadAnalogInputs`."""
+_MESSAGES: tuple[type[Message], ...] = tuple(
+    dict.fromkeys((*_COMMANDS, Refused, *(kind.response for kind in _COMMANDS if issubclass(kind, Command))))
+)
+
+# --- messages ---------------------------------------------------------------------------------------------------------
+
+
+@st.composite
+def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = None) -> MessageT:
+    """Make messages of a class, abstract or not, as any module might send or be sent them.
+
+    Shape: every value that has a place in the digits that the message has with `profile`, or with some profile.
+    """
+    kinds = [each for each in _MESSAGES if issubclass(each, kind)]
+    return cast("MessageT", draw(_any_of(kinds, profile or draw(profiles()), accepted=False)))
+
+
+def commands(profile: Profile) -> SearchStrategy[AnyCommand]:
+    """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`."""
+    return _any_of([kind for kind in _COMMANDS if kind.section not in profile.refused], profile, accepted=True)
+
+
+def any_commands(profile: Profile) -> SearchStrategy[AnyCommand]:
+    """Make commands and broadcasts that a module might be sent, also those that it does not have or take."""
+    return _any_of(_COMMANDS, profile, accepted=False)
+
+
+@st.composite
+def _any_of(draw: st.DrawFn, kinds: Sequence[type[Message]], profile: Profile, *, accepted: bool) -> Any:  # noqa: ANN401
+    """Make messages of one of `kinds`."""
+    # The address comes first, also for a broadcast: what takes more choices is never the smallest example.
+    address = st.just(draw(addresses()))
+    return draw(_messages(draw(st.sampled_from(kinds)), profile, accepted=accepted, fixed={"address": address}))
+
+
+def responses(command: Command[R], profile: Profile) -> SearchStrategy[R | Refused]:
+    """Make responses that `i7000.dcon.encode` takes for `profile`, and that answer `command`."""
+    repeated = {"address": st.just(command.answering_address)}
+    if isinstance(command, ReadConfiguration) and command.address == 0:
+        repeated["address"] = addresses()  # asked in INIT mode, told the stored one
+    if hasattr(command, "channel"):
+        repeated["channel"] = st.just(command.channel)
+    valid = _messages(command.response, profile, accepted=True, fixed=repeated)
+    return cast("SearchStrategy[R | Refused]", valid | st.builds(Refused, st.just(command.address)))
+
+
+def _messages(
+    kind: type[Message],
+    profile: Profile,
+    *,
+    accepted: bool,
+    fixed: Mapping[str, SearchStrategy[Any]],
+) -> SearchStrategy[Message]:
+    """Make messages of a concrete class; with `accepted`, those that the module takes or sends."""
+    parts = {}
+    for attribute in fields(kind):  # type: ignore[arg-type] # all concrete messages are attrs classes
+        parts[attribute.name] = _part(attribute, kind, profile, accepted=accepted)
+    parts |= {name: strategy for name, strategy in fixed.items() if name in parts}
+    built = st.builds(kind, **parts)
+    return built.filter(lambda message: _takes(message, profile)) if accepted else built
+
+
+def _takes(message: Message, profile: Profile) -> bool:
+    try:
+        message.check(profile)
+    except EncodeError:
+        return False
+    return True
+
+
+def _part(  # noqa: PLR0911 - a table
+    attribute: "Attribute[Any]", kind: type[Message], profile: Profile, *, accepted: bool
+) -> SearchStrategy[Any]:
+    """Make the values of one part of a syntax: all that have a place in it; with `accepted`, nearly only valid ones."""
+    part, origin = _part_of(attribute.type), cast("Any", attribute.type).__origin__
+    if origin is bool or (isinstance(origin, type) and issubclass(origin, Enum)):
+        return st.sampled_from((False, True) if origin is bool else origin)
+    if origin is LineSettings:
+        return line_settings(profile if accepted else None)
+    if origin is ReportSettings:
+        return report_settings(profile if accepted else None)
+    if origin is float:
+        return st.integers(-99999, 99999).map(lambda tenths: tenths / 10) | st.just(-0.0)
+    if TypeCode in get_args(origin):
+        free = not accepted or (part.notation == "TT" and not profile.model.type_by_configuration)
+        known = st.sampled_from((*supported_types(profile), MIXED))
+        return known | st.integers(0, 0xFF).map(TypeCode.of) if free else known
+    if part.longest and not part.contextual:
+        return st.text(_TEXT, min_size=1, max_size=_room(kind, part.longest(profile), profile))
+    if part.longest:
+        width = part.longest(profile) // (1 if origin is str else profile.channels)
+        data_format = DataFormat.HEX if width == FIELD_WIDTHS[DataFormat.HEX] else profile.data_format
+        types = profile.type_codes or (None,) * profile.channels
+        values = tuple(channel_fields(data_format, code, legacy=profile.legacy_sentinels) for code in types)
+        return st.one_of(tuple(dict.fromkeys(values))) if origin is str else st.tuples(*values)
+    return addresses() if attribute.name in ("address", "new_address") else _number(part, profile, accepted=accepted)
+
+
+_TEXT = st.characters(codec="ascii", exclude_categories=["Cc"], exclude_characters="%#$~@!>?")
+
+
+def _room(kind: type[Message], longest: int, profile: Profile) -> int:
+    """Tell the characters that a text may have in a frame of this class."""
+    others = kind.layout.longest(profile) - longest + 2 * profile.checksum + 1
+    return min(longest, LONGEST_FRAME - others)
+
+
+def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
+    if part.width == len("SNNNN"):
+        limit = OFFSET_LIMIT if accepted else 0xFFFF
+        return st.integers(-limit, limit)
+    if accepted and part in _LIMITS:
+        return st.integers(0, _LIMITS[part](profile))
+    digits = len(part.notation) if part.width is None else int(getattr(profile, str(part.width)))
+    return st.integers(0, 16**digits - 1)
+
+
+def _part_of(annotation: Any) -> Part:  # noqa: ANN401 - an Annotated type
+    part: Part = annotation.__metadata__[0]
+    return part
+
+
+_LIMITS: dict[Part, Callable[[Profile], int]] = {
+    _part_of(layout.ChannelN): lambda profile: profile.channels - 1,
+    _part_of(layout.ChannelI): lambda profile: profile.channels - 1,
+    _part_of(layout.Mask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(layout.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(layout.Seconds): lambda _: LONGEST_TIMEOUT,
+}
+"""Where a module takes much less than the digits can say: not to be left to `check` alone."""
+
+
+@cache
+def channel_fields(
+    data_format: DataFormat, type_code: TypeCode | None = None, *, legacy: bool = False
+) -> SearchStrategy[str]:
+    """Make fields of one channel as they are sent: any number, special texts, readings of a type."""
+    special = [" " * FIELD_WIDTHS[data_format], *(("+9999", "-0000") if legacy else ())]
+    if data_format is DataFormat.HEX:
+        numbers = st.integers(0, 0xFFFF).map("{:04X}".format)
+    else:
+        special += ["+9999.9", "-9999.9", "+999.99", "-999.99"]
+        points = (3, 2, 4, 5) if data_format is DataFormat.ENGINEERING else (4,)
+        forms = [(sign, point) for point in points for sign in "+-"]
+        numbers = st.integers(0, len(forms) * 10**5 - 1).map(
+            lambda n: _with_point(n // len(forms), *forms[n % len(forms)])
+        )
+    found = numbers | st.sampled_from(special)
+    if type_code is None:
+        return found
+    return found | readings(type_code, data_format).map(lambda reading: encode_field(reading, type_code, data_format))
+
+
+def _with_point(digits: int, sign: str, point: int) -> str:
+    text = f"{sign}{digits:05d}"
+    return f"{text[:point]}.{text[point:]}"
+
+
+# --- exchanges --------------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Exchange:
+    """A command, what answers it, and the frames of both."""
+
+    profile: Profile
+    command: Command[Any]
+    command_wire: bytes
+    response: Response
+    response_wire: bytes
+
+
+@st.composite
+def exchanges(draw: st.DrawFn, profile: Profile | None = None) -> Exchange:
+    """Make exchanges with the module of `profile`, or with any; there are none with a broadcast."""
+    profile = profile or draw(profiles())
+    kinds = [kind for kind in _COMMANDS if kind.section not in profile.refused and issubclass(kind, Command)]
+    command = draw(_any_of(kinds, profile, accepted=True))
+    response = draw(responses(command, profile))
+    return Exchange(profile, command, encode(command, profile), response, encode(response, profile))
