@@ -15,6 +15,7 @@ RINGS = {
     "models": 1,
     "profile": 1,
     "readings": 2,
+    "message": 2,
     "dcon": 2,
     "modbus": 2,
     "device": 3,
@@ -27,7 +28,7 @@ RINGS = {
 }
 EXTRAS = {"strategies": {"hypothesis"}, "cli": {"cyclopts", "rich"}, "simulator": {"cyclopts", "rich", "serial"}}
 PURE = {
-    "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "types", "typing",
+    "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

@@ -33,7 +33,21 @@ class Fault(Enum):
     NUMBER = "number"
     """A data field that is not a number of its format."""
     VALUE = "value"
-    """A digit outside the few that are defined for its place."""
+    """A digit or byte outside the few that are defined for its place."""
+    CRC = "crc"
+    """The CRC of a Modbus RTU frame is wrong."""
+    FUNCTION = "function"
+    """A function code that these modules do not have, or not the one that was asked for."""
+    SUB_FUNCTION = "sub_function"
+    """The same of the sub-function of function 46h."""
+    RANGE = "range"
+    """More items than one frame may ask for or carry, none at all, or items beyond address 65535."""
+    COUNT = "count"
+    """The byte count, or the number of items, does not agree with the rest of the frame or with the request."""
+    ECHO = "echo"
+    """A response that does not repeat what its request said."""
+    RESERVED = "reserved"
+    """A reserved byte or spare bit that is not zero."""
 
 
 class I7000Error(Exception):

@@ -4,9 +4,11 @@ Laws: a message that can be constructed has a wire form; whether a certain model
 command names its response by type: ``class ReadConfiguration(Command[Configuration])``.
 """
 
-from typing import Any, ClassVar, Generic, TypeVar, get_args
+from typing import Any, ClassVar, Generic, TypeVar
 
-from attrs import fields, frozen
+from attrs import frozen
+
+from i7000 import message
 
 from i7000.dcon.layout import Address, Layout
 from i7000.errors import EncodeError
@@ -15,50 +17,16 @@ from i7000.profile import Profile
 __all__ = ["Acknowledged", "Broadcast", "Command", "Message", "Refused", "Response"]
 
 
-class _Compiled:
-    """The layout of a message class, compiled when it is first asked for."""
-
-    def __get__(self, message: object, kind: type["Message"]) -> Layout:
-        layout = Layout.compile(kind)
-        kind.layout = layout
-        return layout
-
-
-class Message:
+class Message(message.Message):
     """A DCON message: a command, a broadcast or a response.
 
-    Shape: `syntax` in the manual's notation, without checksum and carriage return; `section` of the manual; `title`,
-        a few words for people.
+    Shape: `syntax` in the manual's notation, without checksum and carriage return.
     """
 
     __slots__ = ()
 
     syntax: ClassVar[str]
-    section: ClassVar[str]
-    title: ClassVar[str]
-    layout: ClassVar[Layout] = _Compiled()  # type: ignore[assignment] # a descriptor until the first use
-
-    def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
-        # A class that has a __repr__ of its own keeps it under `frozen`.
-        cls.__repr__ = Message.__repr__  # type: ignore[method-assign]
-
-    def __attrs_post_init__(self) -> None:
-        self.layout.check(self)
-
-    def __repr__(self) -> str:
-        """The constructor call, with addresses in hex as the manual writes them."""
-        values = ", ".join(
-            f"{name}=0x{value:02X}" if name in ("address", "new_address", "mask") else f"{name}={value!r}"
-            for name, value in ((field.name, getattr(self, field.name)) for field in fields(type(self)))  # type: ignore[arg-type]
-        )
-        return f"{type(self).__name__}({values})"
-
-    def check(self, profile: Profile) -> None:
-        """Refuse what the module of `profile` does not take or send.
-
-        Errors: `EncodeError`.
-        """
+    layout: ClassVar[Layout] = message.CompiledOnce(Layout.compile)  # type: ignore[assignment] # until the first use
 
 
 class Response(Message):
@@ -87,7 +55,7 @@ class Command(Message, Generic[R]):
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
-        (cls.response,) = get_args(cls.__orig_bases__[0])  # type: ignore[attr-defined]
+        cls.response = message.type_of_answer(cls)
 
     @property
     def answering_address(self) -> int:
@@ -132,11 +100,11 @@ def check_channel(command: Command[Any], channel: int, profile: Profile) -> None
         raise EncodeError("channel", channel, allowed, command.section)
 
 
-def check_mask(message: Message, mask: int, profile: Profile) -> None:
+def check_mask(sent: Message, mask: int, profile: Profile) -> None:
     """Refuse a mask with bits of channels that the module does not have."""
     if mask >> profile.channels:
         allowed = f"bits 0..{profile.channels - 1}: {profile.model.value}"
-        raise EncodeError("mask", f"{mask:X}", allowed, message.section)
+        raise EncodeError("mask", f"{mask:X}", allowed, sent.section)
 
 
 def check_type_code(command: Command[Any], type_code: int, profile: Profile) -> None:

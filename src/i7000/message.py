@@ -1,0 +1,64 @@
+"""What every message of both protocols is: a frozen value whose class states its wire form once.
+
+Laws: a message that can be constructed has a wire form; whether a certain model takes it is what `check` knows.
+"""
+
+from collections.abc import Callable
+from typing import Any, ClassVar, get_args
+
+from attrs import fields
+
+from i7000.profile import Profile
+
+_IN_HEX = ("address", "new_address", "mask")
+
+
+class CompiledOnce:
+    """The layout of a message class, compiled when it is first asked for."""
+
+    def __init__(self, compile_layout: Callable[[Any], Any]) -> None:
+        self._compile = compile_layout
+
+    def __get__(self, message: object, kind: Any) -> Any:  # noqa: ANN401 - a class and its layout
+        kind.layout = self._compile(kind)
+        return kind.layout
+
+
+class Message:
+    """A message of one of the protocols.
+
+    Shape: `section` of the manual; `title`, a few words for people; `layout`, the compiled statement of the wire form.
+    """
+
+    __slots__ = ()
+
+    section: ClassVar[str]
+    title: ClassVar[str]
+    layout: ClassVar[Any]
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        # A class that has a __repr__ of its own keeps it under `frozen`.
+        cls.__repr__ = Message.__repr__  # type: ignore[method-assign]
+
+    def __attrs_post_init__(self) -> None:
+        self.layout.check(self)
+
+    def __repr__(self) -> str:
+        """The constructor call, with addresses in hex as the manual writes them."""
+        values = ", ".join(
+            f"{name}=0x{value:02X}" if name in _IN_HEX else f"{name}={value!r}"
+            for name, value in ((it.name, getattr(self, it.name)) for it in fields(type(self)))  # type: ignore[arg-type]
+        )
+        return f"{type(self).__name__}({values})"
+
+    def check(self, profile: Profile) -> None:
+        """Refuse what the module of `profile` does not take or send.
+
+        Errors: `EncodeError`.
+        """
+
+
+def type_of_answer(kind: Any) -> Any:  # noqa: ANN401 - a class
+    """Tell the type in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``."""
+    return get_args(kind.__orig_bases__[0])[0]
