@@ -85,7 +85,8 @@ def profiles(draw: st.DrawFn, *models: Model, known_types: bool = False) -> Prof
 
 def supported_types(profile: Profile) -> list[TypeCode]:
     """List the types that the module can be set to, the factory's first."""
-    return sorted(filter(profile.supports, TypeCode), key=lambda code: code is not profile.model.default_type)
+    codes = [code for code, since in profile.model.type_codes.items() if profile.runs(since)]
+    return sorted(codes, key=lambda code: code is not profile.model.default_type)
 
 
 # --- settings ---------------------------------------------------------------------------------------------------------

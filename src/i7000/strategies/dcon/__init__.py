@@ -8,6 +8,7 @@ from i7000.strategies.dcon.messages import (
     commands,
     exchanges,
     messages,
+    profiles_with,
     responses,
 )
 
@@ -24,6 +25,7 @@ __all__ = [
     "exchanges",
     "frames",
     "messages",
+    "profiles_with",
     "responses",
     "streams",
 ]

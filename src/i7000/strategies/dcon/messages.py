@@ -13,7 +13,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Profile, ReportSettings, TypeCode
+from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Model, Profile, ReportSettings, TypeCode
 from i7000.dcon import (
     COMMANDS,
     LONGEST_FRAME,
@@ -30,10 +30,20 @@ from i7000.dcon import (
 from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
+from i7000.models import AVAILABILITY
 from i7000.readings import FIELD_WIDTHS, encode_field
 from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
 
-__all__ = ["Exchange", "any_commands", "channel_fields", "commands", "exchanges", "messages", "responses"]
+__all__ = [
+    "Exchange",
+    "any_commands",
+    "channel_fields",
+    "commands",
+    "exchanges",
+    "messages",
+    "profiles_with",
+    "responses",
+]
 
 MessageT = TypeVar("MessageT", bound=Message)
 R = TypeVar("R", bound=Response)
@@ -57,14 +67,22 @@ def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = No
     return cast("MessageT", draw(_any_of(kinds, profile or draw(profiles()), accepted=False)))
 
 
-def commands(profile: Profile) -> SearchStrategy[AnyCommand]:
-    """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`."""
-    return _any_of([kind for kind in _COMMANDS if kind.section not in profile.refused], profile, accepted=True)
+def commands(profile: Profile, *kinds: type[AnyCommand]) -> SearchStrategy[AnyCommand]:
+    """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`, of all `kinds` that the module has."""
+    kinds = tuple(kind for kind in kinds or _COMMANDS if kind.section not in profile.refused)
+    return _any_of(kinds, profile, accepted=True)
 
 
 def any_commands(profile: Profile) -> SearchStrategy[AnyCommand]:
     """Make commands and broadcasts that a module might be sent, also those that it does not have or take."""
     return _any_of(_COMMANDS, profile, accepted=False)
+
+
+def profiles_with(kind: type[AnyCommand]) -> SearchStrategy[Profile]:
+    """Make profiles of modules that have a command."""
+    every = AVAILABILITY.get(kind.section)
+    models = [model for model in Model if every is None or model in every.gates]
+    return profiles(*models).filter(lambda profile: kind.section not in profile.refused)
 
 
 @st.composite
@@ -213,10 +231,11 @@ class Exchange:
 
 
 @st.composite
-def exchanges(draw: st.DrawFn, profile: Profile | None = None) -> Exchange:
-    """Make exchanges with the module of `profile`, or with any; there are none with a broadcast."""
-    profile = profile or draw(profiles())
-    kinds = [kind for kind in _COMMANDS if kind.section not in profile.refused and issubclass(kind, Command)]
-    command = draw(_any_of(kinds, profile, accepted=True))
-    response = draw(responses(command, profile))
+def exchanges(draw: st.DrawFn, *kinds: type[Command[Any]], profile: Profile | None = None) -> Exchange:
+    """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the command."""
+    asked = [kind for kind in kinds or _COMMANDS if issubclass(kind, Command)]
+    kind = draw(st.sampled_from([kind for kind in asked if profile is None or kind.section not in profile.refused]))
+    profile = profile or draw(profiles_with(kind))
+    command = cast("Command[Any]", draw(commands(profile, kind)))
+    response: Response = draw(responses(command, profile))
     return Exchange(profile, command, encode(command, profile), response, encode(response, profile))
