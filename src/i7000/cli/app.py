@@ -1,0 +1,220 @@
+"""The commands of ``i7000`` and their options."""
+
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+from attrs import frozen
+from cyclopts import App, CycloptsError, Parameter
+from rich.text import Text
+
+from i7000 import DataFormat, EncodeError, Firmware, Model, Profile, dcon
+from i7000.cli.dcon import Known
+from i7000.cli.log import pieces
+from i7000.cli.message import encode as encode_message
+from i7000.cli.message import make
+from i7000.cli.records import command_record, line_records
+from i7000.cli.text import Printer, command_lines, frame_lines
+from i7000.cli.words import UsageError, type_codes
+
+__all__ = ["app", "run"]
+
+app = App(
+    name="i7000",
+    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written.",
+    help_format="markdown",
+)
+
+_NUMBERS = 20
+"""Lines that are named at the end."""
+
+
+@Parameter(name="*")
+@frozen
+class Module:
+    """What is known about the module; what is not given is not known."""
+
+    model: str | None = None
+    """Its printed name: I-7018R."""
+    firmware: str | None = None
+    """Its firmware: B3.9; the newest if it is not given."""
+    types: Annotated[str | None, Parameter(name="--type")] = None
+    """Its type, or the types of all channels with commas between: hex codes (0F) or names (K, V_10, MA_4_20)."""
+    data_format: Annotated[DataFormat | None, Parameter(name="--format")] = None
+    """How its readings are written."""
+    checksum: bool | None = None
+    """Whether its frames have a checksum."""
+    single_ended: Annotated[bool | None, Parameter(negative="--differential")] = None
+    """Whether its inputs are single-ended: 7017Z only."""
+
+    def known(self) -> Known:
+        """The options as values.
+
+        Errors: `UsageError`.
+        """
+        try:
+            known = Known(
+                None if self.model is None else Model.find(self.model),
+                None if self.firmware is None else Firmware(self.firmware),
+                None if self.types is None else type_codes(self.types),
+                self.data_format,
+                self.checksum,
+                self.single_ended,
+            )
+            _ = known.default, known.all
+        except EncodeError as error:
+            raise UsageError(error) from None
+        return known
+
+
+_UNKNOWN = Module()
+_Json = Annotated[bool, Parameter(help="Write JSON, an object a line.", negative="")]
+
+
+# --- decode -----------------------------------------------------------------------------------------------------------
+
+
+@app.command
+def decode(
+    *frames: Annotated[str, Parameter(help="Frames; without any, the lines of --file or of standard input.")],
+    file: Annotated[Path | None, Parameter(help="A log; - is standard input.", allow_leading_hyphen=True)] = None,
+    json: _Json = False,
+    module: Module = _UNKNOWN,
+) -> int:
+    r"""Tell what frames mean: those given, or those of a log.
+
+    A frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final `0d`.
+    Quote it: the shell knows `$`, `#` and `>` too. Lines of a log can have dates, words (`TX:`), brackets and arrows
+    before the frame; what cannot be understood is printed too, and named at the end.
+
+    A response is read together with the command before it. Without `--model` all that it could be is told. With
+    `--model`, what is not given has its factory default if the frame fits that, and is left open if not.
+
+    Exit code: 0 if all was understood (also if in more ways than one), 1 if not, 2 for wrong usage.
+
+    JSON has the same keys always, null or empty where there is nothing to tell:
+
+    * the frame: `line`, `direction` (command or response), `text` (the line), `frame`, `wire` (hex), `answers` (line of
+      the command), `error`, `fault`;
+    * its meaning, if it has one: `name`, `title`, `section`, `syntax`, `command` (that it answers), `fields` (numbers,
+      as in the vectors of spec), `explained` (the same in words), `readings` (`channel`, `text`, `status`, `type_code`,
+      `value`, `unit`), `errata`, `pause` (seconds to leave the module alone), `models`, `checksum` (null: fits both),
+      `data_formats`, `assumed` (what has its factory default);
+    * if it has more: `candidates`, objects with the keys of a meaning.
+    """
+    known = module.known()
+    printer = Printer(json=json)
+    count = 0
+    wrong: dict[int, None] = {}
+    with _source(frames, file) as lines:
+        for record in line_records(pieces(lines), known):
+            count += 1
+            if record["error"]:
+                wrong[record["line"]] = None
+            printer.record(record, frame_lines(record, models=known.model is None))
+    if not count:
+        printer.error("there was nothing to decode")
+    if wrong:
+        numbers = ", ".join(map(str, list(wrong)[:_NUMBERS])) + (", ..." if len(wrong) > _NUMBERS else "")
+        printer.error(f"{len(wrong)} not understood: line {numbers}")
+    return 1 if wrong else 0
+
+
+@contextmanager
+def _source(frames: tuple[str, ...], file: Path | None) -> Iterator[Iterable[bytes]]:
+    """The lines to decode."""
+    if frames and file:
+        raise UsageError("frames are given, and a file too: give one of them")
+    if frames:
+        yield [frame.encode("utf-8", "surrogatepass") for frame in frames]
+    elif file and file != Path("-"):
+        with file.open("rb") as lines:
+            yield lines
+    elif sys.stdin is None or (file is None and sys.stdin.isatty()):
+        raise UsageError("no frames: give some, or --file, or a log on standard input; see i7000 decode --help")
+    else:
+        yield sys.stdin.buffer
+
+
+# --- encode, commands -------------------------------------------------------------------------------------------------
+
+
+@app.command
+def encode(
+    name: Annotated[str, Parameter(help="A command, as i7000 commands lists it, or a response.")],
+    /,
+    *fields: Annotated[str, Parameter(help="field=value for each field.")],
+    force: Annotated[bool, Parameter(help="Write it even if the module would refuse it.", negative="")] = False,
+    json: _Json = False,
+    module: Module = _UNKNOWN,
+) -> int:
+    """Write a frame: as text, then in hex.
+
+    * Numbers are decimal, or hex as `0x3A`; truth values `true` or `false`; choices a name or a number: `update=once`.
+    * Types are hex codes or names: `type_code=0F`, `type_code=K`, `type_code=mixed`.
+    * A mask is a number or a list of channels: `mask=0x3A` or `channels=1,3,4,5`.
+    * `line_settings` is a byte in hex, `line_settings=86`, or its parts: `baud_rate=9600 character_format=E81`.
+    * `report_settings` is a byte in hex, `report_settings=40`, or its parts: `data_format=hex checksum=true
+      fast_mode=false filter=reject_50_hz`. Parts that are not given are those of the byte, or the factory default.
+    * Fields of readings have commas between: `values=+01.500,-01.500`.
+
+    Example: `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`
+
+    Exit code: 0; 1 if the model, or every model, refuses it; 2 for wrong usage.
+
+    JSON keys: `name`, `section`, `frame`, `wire` (hex).
+    """
+    known = module.known()
+    printer = Printer(json=json)
+    try:
+        message = make(name, fields)
+        frame = encode_message(message, known, force=force)
+    except EncodeError as refusal:
+        printer.error(refusal if known.model else f"no model takes it; the first says: {refusal}")
+        return 1
+    text = frame[:-1].decode()
+    record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}
+    printer.record(record, [Text(text, "bold"), Text(frame.hex(" "))])
+    return 0
+
+
+@app.command
+def commands(
+    *,
+    model: Annotated[str | None, Parameter(help="The model.")] = None,
+    firmware: Annotated[str | None, Parameter(help="Its firmware; the newest if it is not given.")] = None,
+    json: _Json = False,
+) -> int:
+    """List what a model can do, or all that any can, and who can.
+
+    Columns: section of the manual, command, response, name, what it is about, models.
+
+    JSON keys: `section`, `name`, `title`, `syntax`, `fields` (and their values), `response`, `response_syntax`,
+    `models` (and the firmware from which on, or null), `errata`.
+    """
+    known = Module(model=model, firmware=firmware).known()
+    printer = Printer(json=json)
+    profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
+    for command in dcon.COMMANDS:
+        having = [profile.model.value for profile in profiles if command.section not in profile.refused]
+        if having:
+            record = command_record(command, having)
+            printer.record(record, command_lines(record))
+    return 0
+
+
+# --- run --------------------------------------------------------------------------------------------------------------
+
+
+def run(arguments: Sequence[str] | None) -> int:
+    """Run the command line, and tell the exit code."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    try:
+        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
+    except (CycloptsError, UsageError, OSError) as error:
+        Printer().error(error)
+        return 2
+    except KeyboardInterrupt:
+        return 130

@@ -1,0 +1,120 @@
+"""Records on a terminal, or in a file: colours for the one, the same lines without for the other.
+
+Laws: a line is as long as what it says, never wrapped and never cut; what a terminal could take for a control sequence
+is escaped.
+"""
+
+import json
+from collections.abc import Iterable, Iterator
+
+from rich.console import Console
+from rich.text import Text
+
+from i7000 import Model
+from i7000.cli.dcon import scope
+from i7000.cli.records import Record
+from i7000.cli.words import type_code_words
+
+__all__ = ["Printer"]
+
+_INDENT = "     "
+
+
+class Printer:
+    """Where output goes: `json` as one object a line, else for people."""
+
+    def __init__(self, *, json: bool = False) -> None:
+        self.json = json
+        self.out = Console(soft_wrap=True, highlight=False)
+        self.err = Console(soft_wrap=True, highlight=False, stderr=True)
+
+    def record(self, record: Record, lines: Iterable[Text]) -> None:
+        """Print a record: as it is, or in lines for people."""
+        if self.json:
+            self.out.out(json.dumps(record), highlight=False)
+        else:
+            for line in lines:
+                self.out.print(_printable(line, self.out.encoding))
+
+    def error(self, message: object) -> None:
+        """Say what is wrong."""
+        self.err.print(_printable(Text(f"i7000: {message}", "red"), self.err.encoding))
+
+
+def _printable(text: Text, encoding: str) -> Text:
+    """Escape what is no character of a line, or none that can be written."""
+    plain = text.plain
+    if plain.isascii() and plain.isprintable():
+        return text
+    safe = "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in plain)
+    return Text(safe.encode(encoding, "backslashreplace").decode(encoding), text.style)
+
+
+# --- decode -----------------------------------------------------------------------------------------------------------
+
+
+def frame_lines(record: Record, *, models: bool) -> Iterator[Text]:
+    """What a frame means; `models` tells whether to say which models it fits."""
+    yield Text(f"{record['line']:<4} ") + Text(record["text"], "bold")
+    if record["error"]:
+        yield Text(f"{_INDENT}not understood: {record['error']}", "red")
+    if record["name"]:
+        yield from _meaning(record, models=models, answers=record["answers"])
+    for count, candidate in enumerate(record["candidates"]):
+        yield Text(_INDENT + ("or" if count else "could be"))
+        yield from _meaning(candidate, models=models, answers=record["answers"])
+
+
+def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[Text]:
+    source = f"manual {record['section']}" + (f"; {' '.join(record['errata'])}" if record["errata"] else "")
+    yield Text(_INDENT).append(record["name"], "cyan").append(f": {record['title']} ({source})")
+    if record["command"]:
+        yield _row("answers", f"{record['command']}, line {answers}")
+    for name, words in record["explained"].items():
+        yield _row(name, words)
+    yield from _readings(record)
+    if len(record["data_formats"]) > 1:
+        yield _row("format", " or ".join(record["data_formats"]))
+    if record["checksum"]:
+        yield _row("checksum", "right")
+    if record["pause"]:
+        yield _row("pause", f"{record['pause']:g} s before the next command")
+    if models:
+        yield _row("models", scope(map(Model, record["models"]), record["section"]))
+
+
+def _row(name: str, words: str) -> Text:
+    return Text(f"{_INDENT}  {name:<15} ", "dim") + Text(words, "default")
+
+
+def _readings(record: Record) -> Iterator[Text]:
+    for reading in record["readings"]:
+        channel = "channel" if reading["channel"] is None else f"channel {reading['channel']}"
+        line = _row(channel, f"{reading['text']:7}")
+        if reading["status"] == "ok":
+            line.append(f"  {reading['value']:.7g} {reading['unit']}", "green")
+        elif reading["status"]:
+            line.append(f"  {reading['status'].upper()}", "yellow")
+        yield line
+    for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
+        yield _row("type", type_code_words(code))
+    if any(reading["status"] is None for reading in record["readings"]):
+        yield _row("type", "not known: --type tells")
+    if record["assumed"]:
+        yield _row("assumed", f"the factory default of {' and '.join(record['assumed'])}")
+
+
+# --- commands ---------------------------------------------------------------------------------------------------------
+
+
+def command_lines(record: Record) -> Iterator[Text]:
+    """One command, in a line."""
+    since = {Model(model): firmware for model, firmware in record["models"].items()}
+    yield (
+        Text(f"{record['section']:<5} ")
+        .append(f"{record['syntax']:<12} ", "bold")
+        .append(f"{record['response_syntax'] or 'no response':<12} ")
+        .append(f"{record['name']:<28} ", "cyan")
+        .append(f"{record['title']:<43} ")
+        .append(scope(since, record["section"]), "dim")
+    )

@@ -1,0 +1,166 @@
+"""Values in words, and words for values: type codes, settings, masks, numbers of people.
+
+Laws: a byte that the manual does not define is told as the number it is.
+"""
+
+import re
+from difflib import get_close_matches
+from enum import Enum
+
+from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, ReportSettings, TypeCode
+
+__all__ = [
+    "UsageError",
+    "integer",
+    "line_settings_words",
+    "member",
+    "near",
+    "report_settings_words",
+    "truth",
+    "type_code",
+    "type_code_words",
+    "type_codes",
+]
+
+
+class UsageError(Exception):
+    """What was asked for cannot be understood; the message is for the person who asked."""
+
+
+def near(word: str, known: list[str]) -> str:
+    """Suggest what was meant, as the end of a message."""
+    found = get_close_matches(word, known, n=3, cutoff=0.5)
+    return f"; did you mean {' or '.join(found)}?" if found else ""
+
+
+# --- words for values -------------------------------------------------------------------------------------------------
+
+
+def integer(text: str) -> int:
+    """Read a number, decimal or ``0x`` and hex.
+
+    >>> integer("58"), integer("0x3A"), integer("-12")
+    (58, 58, -12)
+    """
+    if not re.fullmatch(r"[-+]?(?:0[xX][0-9A-Fa-f]{1,8}|[0-9]{1,9})", text):
+        raise UsageError(f"{text!r} is no number: decimal, or hex as 0x3A")
+    return int(text, 16 if "x" in text.lower() else 10)
+
+
+def hex_byte(text: str) -> int:
+    """Read a byte in hex, with or without ``0x``."""
+    if not re.fullmatch(r"(?:0[xX])?[0-9A-Fa-f]{1,2}", text):
+        raise UsageError(f"{text!r} is no byte: one or two hex digits")
+    return int(text, 16)
+
+
+_TRUTH = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
+
+
+def truth(text: str) -> bool:
+    """Read true or false."""
+    if text.lower() not in _TRUTH:
+        raise UsageError(f"{text!r} is neither true nor false: {', '.join(_TRUTH)}")
+    return _TRUTH[text.lower()]
+
+
+def member(text: str, kind: type[Enum]) -> Enum:
+    """Read the name of a member, or its value as a number.
+
+    >>> from i7000 import CharacterFormat
+    >>> member("e81", CharacterFormat)
+    <CharacterFormat.E81: 2>
+    """
+    names = {one.name.lower(): one for one in kind} | {f"{one.value:d}": one for one in kind}
+    if text.lower() not in names:
+        raise UsageError(f"{text!r} is none of {', '.join(names)}")
+    return names[text.lower()]
+
+
+def baud_rate(text: str) -> BaudRate | int:
+    """Read bits per second, or a code.
+
+    >>> baud_rate("9600"), baud_rate("0x06")
+    (<BaudRate.BAUD_9600: 6>, <BaudRate.BAUD_9600: 6>)
+    """
+    number = integer(text)
+    rates = {rate.bits_per_second: rate for rate in BaudRate}
+    if number > max(BaudRate) and number not in rates:
+        raise UsageError(f"{text} baud is none of {', '.join(map(str, rates))}")
+    return rates.get(number, BaudRate.of(number))
+
+
+_TYPES: dict[str, TypeCode] = {code.name: code for code in TypeCode} | {
+    code.thermocouple: code for code in TypeCode if len(code.thermocouple) == 1
+}
+
+
+def type_code(text: str) -> TypeCode | int:
+    """Read a type: two hex digits, a thermocouple's letter, a name of `TypeCode`, or ``mixed``.
+
+    >>> type_code("0F") is type_code("K") is TypeCode.K
+    True
+    """
+    name = re.sub(r"\W+", "_", text.strip()).upper()
+    if name == "MIXED":
+        return MIXED
+    if name in _TYPES:
+        return _TYPES[name]
+    if re.fullmatch(r"(?:0X)?[0-9A-F]{2}", name):
+        return TypeCode.of(int(name, 16))
+    raise UsageError(f"{text!r} is no type: two hex digits, or one of {', '.join(_TYPES)}{near(name, list(_TYPES))}")
+
+
+def type_codes(text: str) -> tuple[TypeCode, ...]:
+    """Read the types of channels, with commas between."""
+    codes = [type_code(part) for part in text.split(",")]
+    unknown = [f"{code:02X}" for code in codes if not isinstance(code, TypeCode)]
+    if unknown:
+        raise UsageError(f"type {unknown[0]} of {text!r} is not defined: 00..{max(TypeCode):02X}")
+    return tuple(code for code in codes if isinstance(code, TypeCode))
+
+
+# --- values in words --------------------------------------------------------------------------------------------------
+
+
+def type_code_words(code: int) -> str:
+    """Tell a type.
+
+    >>> type_code_words(0x0F), type_code_words(0x05), type_code_words(0x20)
+    ('0F, thermocouple K, -270..1372 degC', '05, -2.5..2.5 V', '20, not defined')
+    """
+    known = TypeCode.of(code)
+    if not isinstance(known, TypeCode):
+        return f"{code:02X}, {'the channels have different types' if code == MIXED else 'not defined'}"
+    kind = f"thermocouple {known.thermocouple}, " if known.thermocouple else ""
+    return f"{code:02X}, {kind}{known.minimum:g}..{known.maximum:g} {known.unit}"
+
+
+def line_settings_words(line: LineSettings) -> str:
+    """Tell CC.
+
+    >>> line_settings_words(LineSettings.from_byte(0x86))
+    '86, 9600 baud, E81'
+    """
+    rate = line.baud_rate
+    baud = f"{rate.bits_per_second} baud" if isinstance(rate, BaudRate) else f"baud rate code {rate:02X} not defined"
+    return f"{line.byte:02X}, {baud}, {line.character_format.name}"
+
+
+def report_settings_words(report: ReportSettings) -> str:
+    """Tell FF.
+
+    >>> report_settings_words(ReportSettings.from_byte(0x42))
+    '42, hex, checksum, normal mode, 60 Hz rejected'
+    """
+    form = report.data_format
+    words = [
+        f"{report.byte:02X}",
+        form.name.lower() if isinstance(form, DataFormat) else f"data format {form} not defined",
+        "checksum" if report.checksum else "no checksum",
+        "fast mode" if report.fast_mode else "normal mode",
+        "50 Hz rejected" if report.filter is Filter.REJECT_50_HZ else "60 Hz rejected",
+    ]
+    if report.reserved:
+        words.append(f"reserved bits {report.reserved:03b}")
+    return ", ".join(words)
