@@ -311,6 +311,9 @@ _OPEN_WIRE = Availability(
     gates(I_7018R="B4.2", M_7018R="B4.2", I_7019R="B3.7", M_7019R="B3.7", M_7019Z="B3.7"),
 )
 _CONNECTING_MODE = Availability("7017Z only", gates(series("7017Z")))
+_M_CJC = Availability("M-7018 and M-7019 series only", gates(series("M-7018", "M-7019")))
+_M_7019 = Availability("M-7019 series only", gates(series("M-7019")))
+_M_7017_SERIES = dict.fromkeys(("M_7017", "M_7017C", "M_7017R", "M_7017RC", "M_7017R_A5"), "B3.0")
 
 AVAILABILITY: Mapping[str, Availability] = {
     "2.2": _7019_SERIES,
@@ -341,5 +344,26 @@ AVAILABILITY: Mapping[str, Availability] = {
     "2.41": _OPEN_WIRE,
     "2.42": _CONNECTING_MODE,
     "2.43": _CONNECTING_MODE,
-}
-"""The sections of chapter 2 that only some models have; every other one is for all."""
+    "3.1": Availability(
+        "7019 series, and M-7017 series but the M-7017RMS, from B3.0 only",
+        gates(series("M-7017Z", "M-7017mC-16", "M-7019Z"), M_7019R="B3.0", **_M_7017_SERIES),
+    ),
+    "3.2": _M_SERIES,
+    "3.3.12": _M_CJC,
+    "3.3.13": _M_CJC,
+    "3.3.14": _M_CJC,
+    "3.3.15": _M_CJC,
+    "3.3.16": _M_7019,
+    "3.3.17": _M_7019,
+    "3.4": Availability(
+        "M-7000 series only; M-7017 series and M-7019R from B3.0, M-7018 and M-7018R from B3.5",
+        gates(
+            series("M-7017Z", "M-7017mC-16", "M-7017RMS", "M-7018Z", "M-7018-16", "M-7019Z"),
+            M_7019R="B3.0",
+            M_7018="B3.5",
+            M_7018R="B3.5",
+            **_M_7017_SERIES,
+        ),
+    ),
+} | {f"3.3.{section}": _M_SERIES for section in range(1, 12)}
+"""The sections of chapters 2 and 3 that only some models have; every other one is for all (E55, E56)."""

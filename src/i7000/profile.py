@@ -49,7 +49,7 @@ class Profile:
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
     """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
     refused: Mapping[str, str] = field(init=False, eq=False, repr=False)
-    """Sections of chapter 2 that the module does not have, and who has them."""
+    """Sections of chapters 2 and 3 that the module does not have, and who has them."""
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
@@ -69,6 +69,11 @@ class Profile:
         derive(self, "refused", refused)
         self._check_types()
         derive(self, "units", tuple(code.unit for code in self.type_codes))
+
+    @property
+    def name(self) -> str:
+        """The model, and its firmware if that is known: for messages."""
+        return self.model.value if self.firmware is None else f"{self.model.value} with firmware {self.firmware}"
 
     def has(self, gates: Gates) -> bool:
         """Whether `gates` are open for this model and firmware."""

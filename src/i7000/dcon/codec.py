@@ -171,15 +171,10 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
         if message.section in profile.refused:
             raise EncodeError(
                 "model", profile.model.value, profile.refused[message.section], message.section,
-                f"{_who(profile)} has no {message.title}",
+                f"{profile.name} has no {message.title}",
             )  # fmt: skip
         message.check(profile)
     return seal(message.layout.encode(message, profile), checksum=profile.checksum)
-
-
-def _who(profile: Profile) -> str:
-    firmware = "" if profile.firmware is None else f" with firmware {profile.firmware}"
-    return f"{profile.model.value}{firmware}"
 
 
 def decode_command(frame: bytes, profile: Profile) -> AnyCommand:

@@ -9,7 +9,6 @@ from typing import Any, ClassVar, Generic, TypeVar
 from attrs import frozen
 
 from i7000 import message
-
 from i7000.dcon.layout import Address, Layout
 from i7000.errors import EncodeError
 from i7000.profile import Profile

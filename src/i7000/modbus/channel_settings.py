@@ -1,0 +1,252 @@
+"""Function 46h, the channels: types, mask, filter and fast mode (manual 3.3.5, 3.3.6, 3.3.8 to 3.3.11).
+
+Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+"""
+
+from attrs import frozen
+
+from i7000.errors import EncodeError
+from i7000.modbus import layout
+from i7000.modbus.request import Message, Request, Response
+from i7000.profile import Profile
+
+__all__ = [
+    "ChannelMask",
+    "ChannelMaskResult",
+    "MiscellaneousSettings",
+    "MiscellaneousSettingsResult",
+    "ReadChannelMask",
+    "ReadMiscellaneousSettings",
+    "ReadTypeCode",
+    "SetChannelMask",
+    "SetMiscellaneousSettings",
+    "SetTypeCode",
+    "TypeCodeResult",
+    "TypeCodeSetting",
+]
+
+
+def check_channel(sent: Message, channel: int, profile: Profile) -> None:
+    """Refuse a channel that the module does not have, or cannot set by itself."""
+    last = profile.channels - 1 if profile.individually_configurable else 0
+    if channel > last:
+        raise EncodeError("channel", channel, f"0..{last}: {profile.model.value}", sent.section)
+
+
+def check_mask(sent: Message, mask: int, profile: Profile) -> None:
+    """Refuse a mask with bits of channels that the module does not have."""
+    if mask >> profile.channels:
+        raise EncodeError("mask", f"{mask:X}", f"bits 0..{profile.channels - 1}: {profile.model.value}", sent.section)
+
+
+@frozen
+class TypeCodeSetting(Response):
+    """Tell the type of a channel.
+
+    Wire: ``46 07 type_code``
+    Manual: 3.3.5; E60.
+    """
+
+    pdu = "46 07 type_code"
+    section = "3.3.5"
+    title = "type code"
+
+    type_code: layout.TypeCodeByte
+
+
+@frozen
+class ReadTypeCode(Request[TypeCodeSetting]):
+    """Ask for the type of a channel; of channel 0 where all have the same.
+
+    Wire: ``46 07 00 channel`` -> ``46 07 type_code``
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 3.3.5; E60.
+    """
+
+    pdu = "46 07 00 channel"
+    section = "3.3.5"
+    title = "type code"
+
+    channel: layout.Byte
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_channel(self, self.channel, profile)
+
+
+@frozen
+class TypeCodeResult(Response):
+    """Tell whether the type of a channel was set.
+
+    Wire: ``46 08 result``
+    Manual: 3.3.6; E60, E64.
+    """
+
+    pdu = "46 08 result"
+    section = "3.3.6"
+    title = "type code"
+
+    result: layout.Byte
+
+
+@frozen
+class SetTypeCode(Request[TypeCodeResult]):
+    """Set the type of a channel; with channel 0 of all where they have the same.
+
+    Wire: ``46 08 00 channel type_code`` -> ``46 08 result``
+    Errors: `EncodeError` for a channel or type that the module does not have.
+    Manual: 3.3.6; E60, E64.
+    """
+
+    pdu = "46 08 00 channel type_code"
+    section = "3.3.6"
+    title = "type code"
+    writes = True
+
+    channel: layout.Byte
+    type_code: layout.TypeCodeByte
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel or type that the module does not have."""
+        check_channel(self, self.channel, profile)
+        if not profile.supports(self.type_code):
+            allowed = f"{profile.supported_types()}: {profile.model.value}"
+            raise EncodeError("type_code", f"{self.type_code:02X}", allowed, self.section)
+
+
+@frozen
+class ChannelMask(Response):
+    """Tell which channels are on.
+
+    Wire: ``46 25 mask:mask``
+    Shape: a bit a channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
+    Manual: 3.3.8; E12, E61.
+    """
+
+    pdu = "46 25 mask:mask"
+    section = "3.3.8"
+    title = "channel mask"
+
+    mask: layout.Mask
+
+    def check(self, profile: Profile) -> None:
+        """Refuse channels that the module does not have."""
+        check_mask(self, self.mask, profile)
+
+
+class ReadChannelMask(Request[ChannelMask]):
+    """Ask which channels are on.
+
+    Wire: ``46 25`` -> ``46 25 mask:mask``
+    Manual: 3.3.8; E12, E61.
+    """
+
+    pdu = "46 25"
+    section = "3.3.8"
+    title = "channel mask"
+
+
+@frozen
+class ChannelMaskResult(Response):
+    """Tell whether channels were switched.
+
+    Wire: ``46 26 result``
+    Manual: 3.3.9; E12, E61, E97.
+    """
+
+    pdu = "46 26 result"
+    section = "3.3.9"
+    title = "channel mask"
+
+    result: layout.Byte
+
+
+@frozen
+class SetChannelMask(Request[ChannelMaskResult]):
+    """Switch channels on and off.
+
+    Wire: ``46 26 mask:mask`` -> ``46 26 result``
+    Shape: a bit a channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 3.3.9; E12, E61, E97.
+    """
+
+    pdu = "46 26 mask:mask"
+    section = "3.3.9"
+    title = "channel mask"
+    writes = True
+
+    mask: layout.Mask
+
+    def check(self, profile: Profile) -> None:
+        """Refuse channels that the module does not have."""
+        check_mask(self, self.mask, profile)
+
+
+@frozen
+class MiscellaneousSettings(Response):
+    """Tell filter and fast mode.
+
+    Wire: ``46 29 settings``
+    Shape: bit 7 set rejects 50 Hz, else 60 Hz; bit 5 is fast mode; the others are zero.
+    Manual: 3.3.10; E43, E88.
+    """
+
+    pdu = "46 29 settings"
+    section = "3.3.10"
+    title = "miscellaneous settings"
+
+    settings: layout.Byte
+
+
+class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
+    """Ask for filter and fast mode.
+
+    Wire: ``46 29`` -> ``46 29 settings``
+    Manual: 3.3.10; E43, E88.
+    """
+
+    pdu = "46 29"
+    section = "3.3.10"
+    title = "miscellaneous settings"
+
+
+@frozen
+class MiscellaneousSettingsResult(Response):
+    """Tell whether filter and fast mode were set.
+
+    Wire: ``46 2A result``
+    Manual: 3.3.11; E43, E88.
+    """
+
+    pdu = "46 2A result"
+    section = "3.3.11"
+    title = "miscellaneous settings"
+
+    result: layout.Byte
+
+
+@frozen
+class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
+    """Set filter and fast mode.
+
+    Wire: ``46 2A settings`` -> ``46 2A result``
+    Shape: bit 7 set rejects 50 Hz, else 60 Hz; bit 5 is fast mode; the others are zero.
+    Errors: `EncodeError` for a bit that the module does not have.
+    Manual: 3.3.11; E43, E88.
+    """
+
+    pdu = "46 2A settings"
+    section = "3.3.11"
+    title = "miscellaneous settings"
+    writes = True
+
+    settings: layout.Byte
+
+    def check(self, profile: Profile) -> None:
+        """Refuse bits that the module does not have."""
+        bits = 0x80 * profile.runs(profile.model.filter_from) | 0x20 * profile.model.fast_mode
+        if self.settings & ~bits:
+            raise EncodeError(
+                "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section
+            )

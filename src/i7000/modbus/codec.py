@@ -1,0 +1,223 @@
+"""Messages <-> RTU frames: the functions that `i7000.modbus` is about (manual 3).
+
+Laws: `encode` raises nothing but `EncodeError`, the decoders nothing but `DecodeError`; decoding what was encoded gives
+the message back. What a module could be sent decodes, even if this one would answer with an exception.
+"""
+
+from typing import Any, TypeVar
+
+from attrs import evolve
+
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.modbus.channel_settings import (
+    ReadChannelMask,
+    ReadMiscellaneousSettings,
+    ReadTypeCode,
+    SetChannelMask,
+    SetMiscellaneousSettings,
+    SetTypeCode,
+)
+from i7000.modbus.cold_junction import (
+    ReadCjcEnabled,
+    ReadCjcOffset,
+    ReadCjcUpdate,
+    SetCjcEnabled,
+    SetCjcOffset,
+    SetCjcUpdate,
+)
+from i7000.modbus.frame import seal, unseal
+from i7000.modbus.module_settings import (
+    ReadCommunicationSettings,
+    ReadFirmwareVersion,
+    ReadModuleName,
+    SetCommunicationSettings,
+    SetModuleAddress,
+)
+from i7000.modbus.request import (
+    BROADCAST,
+    EXCEPTION_BIT,
+    MODULE_SETTINGS,
+    ExceptionResponse,
+    Message,
+    Request,
+    Response,
+)
+from i7000.modbus.standard import (
+    ReadCoils,
+    ReadDiscreteInputs,
+    ReadHoldingRegisters,
+    ReadInputRegisters,
+    WriteMultipleCoils,
+    WriteMultipleRegisters,
+    WriteSingleCoil,
+    WriteSingleRegister,
+)
+from i7000.profile import Profile
+
+__all__ = ["REQUESTS", "decode_request", "decode_response", "encode", "is_answered"]
+
+REQUESTS: tuple[type[Request[Any]], ...] = (
+    ReadCoils,
+    ReadDiscreteInputs,
+    ReadHoldingRegisters,
+    ReadInputRegisters,
+    WriteSingleCoil,
+    WriteSingleRegister,
+    WriteMultipleCoils,
+    WriteMultipleRegisters,
+    ReadModuleName,  # 46h, 00
+    SetModuleAddress,
+    ReadCommunicationSettings,
+    SetCommunicationSettings,
+    ReadTypeCode,
+    SetTypeCode,
+    ReadFirmwareVersion,  # 20
+    ReadChannelMask,
+    SetChannelMask,
+    ReadMiscellaneousSettings,
+    SetMiscellaneousSettings,
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadCjcEnabled,
+    SetCjcEnabled,
+    ReadCjcUpdate,
+    SetCjcUpdate,  # 30
+)
+"""Every request, by function and sub-function."""
+
+R = TypeVar("R", bound=Response)
+
+_BY_FUNCTION = {request.function: request for request in REQUESTS if request.sub_function is None}
+_BY_SUB_FUNCTION = {request.sub_function: request for request in REQUESTS if request.sub_function is not None}
+
+
+def encode(message: Message, profile: Profile | None = None, *, force: bool = False) -> bytes:
+    """Write a request or a response as an RTU frame.
+
+    Special: with a profile, what the module does not have is refused, but for `force`. Masks need one for their length.
+    Errors: `EncodeError` that tells the reason.
+    Manual: 3.
+
+    >>> encode(ReadInputRegisters(0x01, 0, 8)).hex()
+    '010400000008f1cc'
+    """
+    if message.address == BROADCAST and not (isinstance(message, Request) and message.writes):
+        raise EncodeError("address", BROADCAST, "1..247 for what is answered, or an answer", message.section)
+    if profile is not None and not force:
+        if message.section in profile.refused:
+            raise EncodeError(
+                "model", profile.model.value, profile.refused[message.section], message.section,
+                f"{profile.name} has no {message.title} by Modbus",
+            )  # fmt: skip
+        message.check(profile)
+    return seal(message.layout.encode(message, profile))
+
+
+def is_answered(request: Request[Any]) -> bool:
+    """Tell whether a response is to be waited for: not if the request is for all modules."""
+    return request.address != BROADCAST
+
+
+def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
+    """Read a frame that a host sent to the module of `profile`.
+
+    Special: what the module does not have is read all the same: it answers with an exception.
+    Errors: `DecodeError`; `Fault.FUNCTION` and `SUB_FUNCTION` for what no module has.
+    Manual: 3; E94, E99.
+
+    >>> from i7000 import Model
+    >>> decode_request(bytes.fromhex("010400000008f1cc"), Profile(Model.M_7017))
+    ReadInputRegisters(address=0x01, start=0, count=8)
+    """
+    body = unseal(frame)
+    function = body[1]
+    if function == MODULE_SETTINGS:
+        kind = _BY_SUB_FUNCTION.get(body[2])
+        if kind is None:
+            raise _sub_function_error(frame, " ".join(f"{it:02X}" for it in _BY_SUB_FUNCTION))
+    else:
+        kind = _BY_FUNCTION.get(function)
+        if kind is None:
+            allowed = " ".join(f"{it:02X}" for it in (*_BY_FUNCTION, MODULE_SETTINGS))
+            raise DecodeError(Fault.FUNCTION, frame, 1, field="function", allowed=allowed, section="3")
+    if body[0] > _LAST_ADDRESS or (body[0] == BROADCAST and not kind.writes):
+        raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed="1..247; 0 to write", section="3")
+    request: Request[Any] = _decode(kind, body, frame, profile)
+    return request
+
+
+def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | ExceptionResponse:
+    """Read the frame that answers `request`, and hold it against the request.
+
+    Errors: `DecodeError`; `Fault.ADDRESS`, `FUNCTION` or `SUB_FUNCTION` for the answer to something else, `COUNT` for
+        other items than were asked for, `ECHO` for a write that is not repeated.
+    Manual: 3.
+
+    >>> from i7000 import Model
+    >>> decode_response(bytes.fromhex("018402c2c1"), ReadInputRegisters(0x01, 200, 1), Profile(Model.M_7017))
+    ExceptionResponse(address=0x01, function=4, exception_code=2)
+    """
+    body = unseal(frame)
+    if body[0] != request.address:
+        allowed = f"{request.address:02X}"
+        raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed=allowed, section=request.section)
+    function = body[1]
+    if function != request.function:
+        if function != request.function | EXCEPTION_BIT:
+            allowed = f"{request.function:02X} {request.function | EXCEPTION_BIT:02X}"
+            raise DecodeError(Fault.FUNCTION, frame, 1, field="function", allowed=allowed, section=request.section)
+        if len(body) != len("afe"):
+            raise DecodeError(Fault.LENGTH, frame, 3, allowed="5 bytes for an exception", section=request.section)
+        return ExceptionResponse(body[0], request.function, body[2])
+    if request.sub_function is not None and body[2] != request.sub_function:
+        raise _sub_function_error(frame, f"{request.sub_function:02X}")
+    if request.writes and request.sub_function is None:
+        _check_echo(request, body, frame)
+    response: R = _held_against(request, _decode(request.response, body, frame, profile), frame)
+    return response
+
+
+_LAST_ADDRESS = 247
+
+
+def _sub_function_error(frame: bytes, allowed: str) -> DecodeError:
+    return DecodeError(Fault.SUB_FUNCTION, frame, 2, field="sub_function", allowed=allowed, section="3.3")
+
+
+def _decode(kind: Any, body: bytes, frame: bytes, profile: Profile) -> Any:  # noqa: ANN401 - a message class, a message
+    try:
+        return kind.layout.decode(body, profile)
+    except DecodeError as error:
+        raise DecodeError(
+            error.fault, frame, error.offset, field=error.field, allowed=error.allowed, section=kind.section
+        ) from None
+
+
+def _held_against(request: Any, response: Any, frame: bytes) -> Any:  # noqa: ANN401 - of any class
+    """Hold the number of items against the request, and drop the spare bits of the last byte."""
+    if isinstance(request, ReadHoldingRegisters | ReadInputRegisters):
+        if len(response.values) != request.count:
+            raise _count_error(frame, 2 * request.count, request.section)
+    elif isinstance(request, ReadCoils | ReadDiscreteInputs):
+        if len(response.values) != request.count + 7 >> 3 << 3:
+            raise _count_error(frame, request.count + 7 >> 3, request.section)
+        if any(response.values[request.count :]):
+            at, allowed = len(frame) - 3, "spare bits zero"
+            raise DecodeError(Fault.RESERVED, frame, at, field="values", allowed=allowed, section=request.section)
+        return evolve(response, values=response.values[: request.count])
+    return response
+
+
+def _count_error(frame: bytes, count: int, section: str) -> DecodeError:
+    return DecodeError(Fault.COUNT, frame, 2, field="bytes", allowed=f"{count}, as asked for", section=section)
+
+
+def _check_echo(request: Request[Any], body: bytes, frame: bytes) -> None:
+    """Hold what a write repeats, which is the beginning of the request, against it."""
+    said = request.layout.encode(request, None)[: request.response.layout.fixed]
+    if len(body) != len(said):
+        allowed = f"{len(said)} bytes of address and PDU"
+        raise DecodeError(Fault.LENGTH, frame, min(len(body), len(said)), allowed=allowed, section=request.section)
+    for at, (byte, expected) in enumerate(zip(body, said, strict=True)):
+        if byte != expected:
+            raise DecodeError(Fault.ECHO, frame, at, allowed=said.hex(" "), section=request.section)

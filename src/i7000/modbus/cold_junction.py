@@ -1,0 +1,234 @@
+"""Function 46h, cold-junction compensation: offsets, switch, update (manual 3.3.12 to 3.3.17).
+
+Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+"""
+
+from attrs import field, frozen
+
+from i7000.errors import EncodeError
+from i7000.modbus import layout
+from i7000.modbus.request import Message, Request, Response
+from i7000.profile import Profile
+
+__all__ = [
+    "CjcEnabled",
+    "CjcEnabledResult",
+    "CjcOffset",
+    "CjcOffsetResult",
+    "CjcUpdateResult",
+    "CjcUpdateSetting",
+    "ReadCjcEnabled",
+    "ReadCjcOffset",
+    "ReadCjcUpdate",
+    "SetCjcEnabled",
+    "SetCjcOffset",
+    "SetCjcUpdate",
+]
+
+OFFSET_LIMIT = 0x1000
+"""The largest magnitude of a module's CJC offset."""
+FIRST_CHANNEL = 0x80
+"""What channel 0 is where 0 is the module."""
+
+
+def check_offset_channel(sent: Message, channel: int, profile: Profile) -> None:
+    """Refuse what is neither the module nor one of its channels."""
+    if channel and not 0 <= channel - FIRST_CHANNEL < profile.channels:
+        allowed = f"00, 80..{FIRST_CHANNEL + profile.channels - 1:02X}: {profile.model.value}"
+        raise EncodeError("channel", f"{channel:02X}", allowed, sent.section)
+
+
+@frozen
+class CjcOffset(Response):
+    """Tell an offset of the cold-junction temperature.
+
+    Wire: ``46 2B offset:2``
+    Unit: counts of 0.01 degC for the module; of 0.1 degC for a channel, two's complement in the low byte (E62).
+    Manual: 3.3.12; E62, E63.
+    """
+
+    pdu = "46 2B offset:2"
+    section = "3.3.12"
+    title = "CJC offset"
+
+    offset: layout.SignedWord
+
+
+@frozen
+class ReadCjcOffset(Request[CjcOffset]):
+    """Ask for the offset of the cold-junction temperature, of the module or a channel.
+
+    Wire: ``46 2B channel`` -> ``46 2B offset:2``
+    Shape: `channel` 00h is the module, 80h channel 0, 81h channel 1 and so on.
+    Errors: `EncodeError` for a channel that the module does not have.
+    Manual: 3.3.12; E62, E63.
+    """
+
+    pdu = "46 2B channel"
+    section = "3.3.12"
+    title = "CJC offset"
+
+    channel: layout.Byte
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have."""
+        check_offset_channel(self, self.channel, profile)
+
+
+@frozen
+class CjcOffsetResult(Response):
+    """Tell whether an offset was set.
+
+    Wire: ``46 2C result``
+    Manual: 3.3.13; E62, E63, E85.
+    """
+
+    pdu = "46 2C result"
+    section = "3.3.13"
+    title = "CJC offset"
+
+    result: layout.Byte
+
+
+@frozen
+class SetCjcOffset(Request[CjcOffsetResult]):
+    """Set the offset of the cold-junction temperature, of the module or a channel.
+
+    Wire: ``46 2C channel offset:2`` -> ``46 2C result``
+    Shape: `channel` 00h is the module, 80h channel 0, 81h channel 1 and so on.
+    Unit: counts of 0.01 degC for the module; of 0.1 degC for a channel, two's complement in the low byte (E62).
+    Range: -1000h..1000h for the module; 00h..FFh for a channel.
+    Errors: `EncodeError` for a channel that the module does not have, and beyond the range.
+    Manual: 3.3.13; E62, E63, E85.
+    """
+
+    pdu = "46 2C channel offset:2"
+    section = "3.3.13"
+    title = "CJC offset"
+    writes = True
+
+    channel: layout.Byte
+    offset: layout.SignedWord
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a channel that the module does not have, or an offset beyond its range."""
+        check_offset_channel(self, self.channel, profile)
+        low, high = (0, 0xFF) if self.channel else (-OFFSET_LIMIT, OFFSET_LIMIT)
+        if not low <= self.offset <= high:
+            raise EncodeError("offset", self.offset, f"{low}..{high}", self.section)
+
+
+@frozen
+class CjcEnabled(Response):
+    """Tell whether the cold junction is compensated.
+
+    Wire: ``46 2D enabled``
+    Manual: 3.3.14; E63.
+    """
+
+    pdu = "46 2D enabled"
+    section = "3.3.14"
+    title = "CJC switch"
+
+    enabled: layout.Flag = field(kw_only=True)
+
+
+class ReadCjcEnabled(Request[CjcEnabled]):
+    """Ask whether the cold junction is compensated.
+
+    Wire: ``46 2D 00`` -> ``46 2D enabled``
+    Manual: 3.3.14; E63.
+    """
+
+    pdu = "46 2D 00"
+    section = "3.3.14"
+    title = "CJC switch"
+
+
+@frozen
+class CjcEnabledResult(Response):
+    """Tell whether the compensation was switched.
+
+    Wire: ``46 2E result``
+    Manual: 3.3.15; E64.
+    """
+
+    pdu = "46 2E result"
+    section = "3.3.15"
+    title = "CJC switch"
+
+    result: layout.Byte
+
+
+@frozen
+class SetCjcEnabled(Request[CjcEnabledResult]):
+    """Switch the compensation of the cold junction on or off.
+
+    Wire: ``46 2E 00 enabled`` -> ``46 2E result``
+    Manual: 3.3.15; E64.
+    """
+
+    pdu = "46 2E 00 enabled"
+    section = "3.3.15"
+    title = "CJC switch"
+    writes = True
+
+    enabled: layout.Flag = field(kw_only=True)
+
+
+@frozen
+class CjcUpdateSetting(Response):
+    """Tell whether the cold-junction temperature is being updated.
+
+    Wire: ``46 2F update``
+    Manual: 3.3.16.
+    """
+
+    pdu = "46 2F update"
+    section = "3.3.16"
+    title = "CJC update setting"
+
+    update: layout.UpdateByte
+
+
+class ReadCjcUpdate(Request[CjcUpdateSetting]):
+    """Ask whether the cold-junction temperature is being updated.
+
+    Wire: ``46 2F`` -> ``46 2F update``
+    Manual: 3.3.16.
+    """
+
+    pdu = "46 2F"
+    section = "3.3.16"
+    title = "CJC update setting"
+
+
+@frozen
+class CjcUpdateResult(Response):
+    """Tell whether the update was set.
+
+    Wire: ``46 30 result``
+    Manual: 3.3.17; E64.
+    """
+
+    pdu = "46 30 result"
+    section = "3.3.17"
+    title = "CJC update setting"
+
+    result: layout.Byte
+
+
+@frozen
+class SetCjcUpdate(Request[CjcUpdateResult]):
+    """Start or stop the update of the cold-junction temperature, or update it once.
+
+    Wire: ``46 30 update`` -> ``46 30 result``
+    Manual: 3.3.17; E64.
+    """
+
+    pdu = "46 30 update"
+    section = "3.3.17"
+    title = "CJC update setting"
+    writes = True
+
+    update: layout.UpdateByte

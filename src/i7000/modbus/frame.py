@@ -1,0 +1,82 @@
+"""The envelope of every Modbus RTU frame: address, PDU, CRC-16 (manual 3).
+
+Laws: `seal` and `unseal` are each other's inverse.
+"""
+
+import struct
+from collections.abc import Callable
+from functools import cache
+
+from i7000.errors import DecodeError, Fault
+
+__all__ = ["LONGEST_FRAME", "SHORTEST_FRAME", "crc16", "seal", "unseal"]
+
+LONGEST_FRAME = 256
+SHORTEST_FRAME = 5
+"""Bytes of an exception response; a request has six at least, but for two sub-functions of 46h that have five too."""
+
+_POLYNOMIAL = 0xA001
+_START = 0xFFFF
+
+
+def _table_of_bytes() -> list[int]:
+    table = []
+    for byte in range(256):
+        crc = byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (_POLYNOMIAL if crc & 1 else 0)
+        table.append(crc)
+    return table
+
+
+@cache
+def _tables() -> tuple[list[int], list[int]]:
+    """What one byte and what two bytes do to the CRC; made when first needed."""
+    one = _table_of_bytes()
+    step = [one[low] ^ high for high in range(256) for low in range(256)]
+    return one, [crc >> 8 ^ one[crc & 0xFF] for crc in step]
+
+
+@cache
+def _words(count: int) -> Callable[[bytes], tuple[int, ...]]:
+    return struct.Struct(f"<{count}H").unpack
+
+
+def crc16(data: bytes) -> int:
+    """Compute the CRC-16 of Modbus; of a whole frame, CRC included, it is 0.
+
+    >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
+    'CCF1'
+    """
+    one, two = _tables()
+    crc = _START
+    length = len(data)
+    if length & 1:
+        crc = crc >> 8 ^ one[(crc ^ data[0]) & 0xFF]
+        data = data[1:]
+    for word in _words(length >> 1)(data):
+        crc = two[crc ^ word]
+    return crc
+
+
+def seal(body: bytes) -> bytes:
+    """Make a frame of address and PDU: the CRC follows, low byte first.
+
+    >>> seal(bytes.fromhex("010400000008")).hex()
+    '010400000008f1cc'
+    """
+    return body + crc16(body).to_bytes(2, "little")
+
+
+def unseal(frame: bytes) -> bytes:
+    """Take address and PDU out of exactly one frame, the CRC verified and removed.
+
+    Errors: `DecodeError` with `Fault.LENGTH` or `CRC`.
+    """
+    if not SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME:
+        allowed = f"{SHORTEST_FRAME} to {LONGEST_FRAME} bytes"
+        raise DecodeError(Fault.LENGTH, frame, min(len(frame), LONGEST_FRAME), allowed=allowed, section="3")
+    if crc16(frame):
+        crc = crc16(frame[:-2]).to_bytes(2, "little").hex()
+        raise DecodeError(Fault.CRC, frame, len(frame) - 2, field="crc", allowed=crc, section="3")
+    return frame[:-2]

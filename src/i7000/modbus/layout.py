@@ -1,0 +1,306 @@
+"""One statement of a PDU -> its encoder, its decoder and its length.
+
+A message class has its PDU in `pdu`: tokens with a blank between. Two hex digits are a literal byte, ``00`` a reserved
+one; ``name`` is a byte of the field of that name, ``name:2`` two bytes, high byte first, ``name:4`` four as they are.
+Three tokens have a length of their own and stand last:
+
+* ``name:mask``: a bit for each channel, in 1, 2 or 3 bytes by the profile, high byte first;
+* ``name:bits``: a bit an item, the first in bit 0 of the first byte, spare bits zero;
+* ``name:words``: two bytes an item.
+
+The last two follow ``bytes``, the count of their bytes; ``count:2`` where no field has that name is that of items. The
+first use of a class compiles its statement to straight-line code around one `struct.Struct`.
+
+Laws: the constructor takes exactly the values that a field's `Item` accepts; what is written is read back as it was.
+"""
+
+import struct
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from typing import Annotated, Any
+
+from attrs import fields, frozen
+
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.profile import Profile
+from i7000.settings import CjcUpdate, LineSettings, Protocol
+from i7000.type_codes import TypeCode
+
+# --- fields -----------------------------------------------------------------------------------------------------------
+
+
+@frozen(eq=False)
+class Item:
+    """What a field of a PDU can be."""
+
+    allowed: str
+    """Its values, for messages."""
+    accepts: Callable[[Any], bool]
+    """Whether the field can have this value."""
+    write: str = "{}"
+    """What is on the wire, as an expression of the field."""
+    read: Callable[[Any], Any] | None = None
+    """The field from what is on the wire; `KeyError` where that means nothing."""
+    fault: Fault = Fault.VALUE
+    """What is wrong when `read` raises, or when what was read is not accepted."""
+
+
+def _is_int(value: object, low: int, high: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
+
+
+def _number(low: int, high: int, fault: Fault = Fault.VALUE) -> Item:
+    return Item(f"{low}..{high}", lambda value: _is_int(value, low, high), fault=fault)
+
+
+def _choice(kind: Any) -> Item:  # noqa: ANN401 - bool or an enumeration of codes
+    values = {int(value): value for value in ((False, True) if kind is bool else kind)}
+    return Item(" ".join(map(str, values)), lambda value: isinstance(value, kind), read=values.__getitem__)
+
+
+def _sequence(kind: type, most: int, accepts: Callable[[Any], bool]) -> Item:
+    def all_accepted(value: object) -> bool:
+        return isinstance(value, tuple) and 1 <= len(value) <= most and all(map(accepts, value))
+
+    return Item(f"a tuple of 1 to {most} items ({kind.__name__})", all_accepted, fault=Fault.RANGE)
+
+
+def _words(most: int) -> Item:
+    return _sequence(int, most, lambda value: _is_int(value, 0, 0xFFFF))
+
+
+def _bits(most: int) -> Item:
+    return _sequence(bool, most, lambda value: isinstance(value, bool))
+
+
+def _signed(word: int) -> int:
+    return word - ((word & 0x8000) << 1)
+
+
+MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 123
+"""What one frame may ask for or carry."""
+
+Address = Annotated[int, _number(0, 247)]
+Byte = Annotated[int, _number(0, 0xFF)]
+Word = Annotated[int, _number(0, 0xFFFF)]
+SignedWord = Annotated[int, Item("-32768..32767", lambda it: _is_int(it, -0x8000, 0x7FFF), "{} & 0xFFFF", _signed)]
+BitCount = Annotated[int, _number(1, MOST_BITS, Fault.RANGE)]
+WordCount = Annotated[int, _number(1, MOST_WORDS, Fault.RANGE)]
+WrittenBitCount = Annotated[int, _number(1, MOST_WRITTEN_BITS, Fault.RANGE)]
+WrittenWordCount = Annotated[int, _number(1, MOST_WRITTEN_WORDS, Fault.RANGE)]
+Bits = Annotated[tuple[bool, ...], _bits(MOST_BITS)]
+Words = Annotated[tuple[int, ...], _words(MOST_WORDS)]
+WrittenBits = Annotated[tuple[bool, ...], _bits(MOST_WRITTEN_BITS)]
+WrittenWords = Annotated[tuple[int, ...], _words(MOST_WRITTEN_WORDS)]
+_COIL = {0xFF00: True, 0x0000: False}
+Coil = Annotated[bool, Item("True False", lambda it: isinstance(it, bool), "0xFF00 if {} else 0", _COIL.__getitem__)]
+Flag = Annotated[bool, _choice(bool)]
+ProtocolByte = Annotated[Protocol, _choice(Protocol)]
+UpdateByte = Annotated[CjcUpdate, _choice(CjcUpdate)]
+TypeCodeByte = Annotated[TypeCode | int, Item("0..255", lambda it: _is_int(it, 0, 0xFF), read=TypeCode.of)]
+LineByte = Annotated[
+    LineSettings, Item("a LineSettings", lambda it: isinstance(it, LineSettings), "{}.byte", LineSettings.from_byte)
+]
+ExceptionFunction = Annotated[
+    int, Item("1..127", lambda it: _is_int(it, 1, 0x7F), "{} | 0x80", lambda number: number & 0x7F)
+]
+Mask = Annotated[int, _number(0, 0xFFFFFF)]
+Name = Annotated[bytes, Item("4 bytes", lambda it: isinstance(it, bytes) and len(it) == 4)]
+
+# --- bits and words ---------------------------------------------------------------------------------------------------
+
+
+@cache
+def _struct_of_words(count: int) -> struct.Struct:
+    return struct.Struct(f">{count}H")
+
+
+def _pack_words(words: tuple[int, ...]) -> bytes:
+    return _struct_of_words(len(words)).pack(*words)
+
+
+def _unpack_words(data: bytes) -> tuple[int, ...]:
+    return _struct_of_words(len(data) >> 1).unpack(data)
+
+
+def _pack_bits(bits: tuple[bool, ...]) -> bytes:
+    number = sum(1 << at for at, bit in enumerate(bits) if bit)
+    return number.to_bytes((len(bits) + 7) >> 3, "little")
+
+
+def _unpack_bits(data: bytes) -> tuple[bool, ...]:
+    return tuple([bool(byte >> at & 1) for byte in data for at in range(8)])
+
+
+# --- layouts ----------------------------------------------------------------------------------------------------------
+
+_WIDTHS = {"B": 1, "H": 2, "4s": 4}
+_FORMS = {"": "B", "2": "H", "4": "4s"}
+_ADDRESSES = 0x10000
+
+
+@frozen
+class Token:
+    """One token of a PDU."""
+
+    name: str
+    """The field it is for; empty for a literal."""
+    form: str
+    """``B``, ``H`` or ``4s`` as of `struct`; or ``mask``, ``bits``, ``words``."""
+    literal: int = 0
+
+    @property
+    def width(self) -> int:
+        """Bytes; 0 for a token that has a length of its own."""
+        return _WIDTHS.get(self.form, 0)
+
+
+def tokens_of(pdu: str) -> tuple[Token, ...]:
+    """Read a statement; the address stands before every PDU."""
+    tokens = [Token("address", "B")]
+    for text in pdu.split(" "):
+        name, _, form = text.partition(":")
+        if set(text) <= set("0123456789ABCDEF"):
+            tokens.append(Token("", "B", int(text, 16)))
+        else:
+            tokens.append(Token(name, _FORMS.get(form, form)))
+    return tuple(tokens)
+
+
+@frozen(eq=False)
+class Layout:
+    """The compiled PDU of one message class."""
+
+    tokens: tuple[Token, ...]
+    fixed: int
+    """Bytes of address and PDU without the token that has a length of its own."""
+    tail: str
+    """The form of that token, or empty."""
+    encode: Callable[[Any, Profile | None], bytes]
+    """Message and profile -> address and PDU; `EncodeError` without the profile that a mask needs."""
+    decode: Callable[[bytes, Profile], Any]
+    """Address and PDU, and profile -> message; function and sub-function are known to be right; `DecodeError`."""
+    check: Callable[[Any], None]
+    """Refuse values that no message of this class can have."""
+
+    @classmethod
+    def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
+        """Compile the PDU of a message class."""
+        tokens = tokens_of(message.pdu)
+        items: dict[str, Item] = {field.name: field.type.__metadata__[0] for field in fields(message)}
+        fixed = [token for token in tokens if token.width]
+        tail = next((token for token in tokens if not token.width), Token("", ""))
+        form = struct.Struct(">" + "".join(token.form for token in fixed))
+        names: dict[str, Any] = {
+            "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
+            "pack_words": _pack_words, "unpack_words": _unpack_words, "pack_bits": _pack_bits,
+            "unpack_bits": _unpack_bits, "mask_bytes": _mask_bytes, "fail": _fail, "refuse": _refuse,
+        }  # fmt: skip
+        for name, item in items.items():
+            names |= {f"accepts_{name}": item.accepts, f"read_{name}": item.read, f"item_{name}": item}
+            names[f"set_{name}"] = getattr(message, name).__set__
+        lines = (*_encoder(fixed, tail, items), *_decoder(fixed, tail, items, form.size), *_checker(tail, items))
+        exec(compile("\n".join(lines), f"<layout of {message.__name__}>", "exec"), names)  # noqa: S102 - our statements
+        return cls(tokens, form.size, tail.form, names["encode"], names["decode"], names["check"])
+
+
+def _mask_bytes(profile: Profile | None) -> int:
+    if profile is None:
+        raise EncodeError("profile", None, "the module's, which the length of a mask depends on", "3.3.9")
+    return profile.mask_digits // 2
+
+
+def _fail(body: bytes, fault: Fault, at: int, field: str, allowed: str) -> None:
+    raise DecodeError(fault, body, at, field=field, allowed=allowed)
+
+
+def _refuse(message: Any, field: str, allowed: str) -> None:  # noqa: ANN401
+    raise EncodeError(field, getattr(message, field), allowed, message.section)
+
+
+_PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": '{}.to_bytes(mask_bytes(p), "big")'}
+_BYTES = {"words": "2 * len(m.values)", "bits": "len(m.values) + 7 >> 3"}
+
+
+def _encoder(fixed: Iterable[Token], tail: Token, items: dict[str, Item]) -> Iterator[str]:
+    values = []
+    for token in fixed:
+        if token.name in items:
+            values.append(items[token.name].write.format(f"m.{token.name}"))
+        elif token.name == "bytes":
+            values.append(_BYTES[tail.form])
+        else:
+            values.append("len(m.values)" if token.name else str(token.literal))
+    yield "def encode(m, p):"
+    packed = f"pack({', '.join(values)})"
+    if tail.form:
+        packed += " + " + _PACKERS[tail.form].format(f"m.{tail.name}")
+    yield f"    return {packed}"
+
+
+def _decoder(  # noqa: C901, PLR0912 - a list of checks, in the order in which they are made
+    fixed: list[Token], tail: Token, items: dict[str, Item], size: int
+) -> Iterator[str]:
+    """Make the decoder: lengths are looked at first, then ranges, counts, reserved bytes, and single values."""
+    names = [token.name or f"literal_{at}" for at, token in enumerate(fixed)]
+    places = [sum(token.width for token in fixed[:at]) for at in range(len(fixed))]
+    yield "def decode(b, p):"
+    if tail.form in _BYTES:
+        yield f"    if len(b) <= {size}:"
+    else:
+        extra = " + mask_bytes(p)" if tail.form else ""
+        yield f"    if len(b) != {size}{extra}:"
+    yield f"        fail(b, Fault.LENGTH, min(len(b), {size}), '', 'address and PDU of {size} bytes and what follows')"
+    yield f"    {', '.join(names)}, = unpack(b)"
+    for name, at in zip(names, places, strict=True):
+        if name in items and items[name].fault is Fault.RANGE:
+            yield f"    if not accepts_{name}({name}):"
+            yield f"        fail(b, Fault.RANGE, {at}, {name!r}, item_{name}.allowed)"
+    if tail.form in _BYTES:
+        odd = " or bytes & 1" if tail.form == "words" else ""
+        yield f"    if bytes != len(b) - {size}{odd}:"
+        yield f"        fail(b, Fault.COUNT, {places[names.index('bytes')]}, 'bytes', 'the bytes that follow')"
+        yield f"    {tail.name} = unpack_{tail.form}(b[{size}:])"
+        if "count" in names:
+            counted = "count" if tail.form == "words" else "count + 7 >> 3 << 3"
+            at = places[names.index("count")]
+            yield f"    if len({tail.name}) != {counted} or not count:"
+            yield f"        fail(b, Fault.COUNT if count else Fault.RANGE, {at}, 'count', 'the items that follow')"
+            if tail.form == "bits":
+                yield f"    if any({tail.name}[count:]):"
+                yield f"        fail(b, Fault.RESERVED, len(b) - 1, {tail.name!r}, 'spare bits zero')"
+                yield f"    {tail.name} = {tail.name}[:count]"
+        yield (
+            f"    if not accepts_{tail.name}({tail.name}):"
+            if "count" in names
+            else f"    if len({tail.name}) > {MOST_BITS}:"
+        )
+        yield f"        fail(b, Fault.RANGE, {size}, {tail.name!r}, item_{tail.name}.allowed)"
+    elif tail.form:
+        yield f"    {tail.name} = int.from_bytes(b[{size}:], 'big')"
+    if "start" in names and ("count" in names):
+        yield f"    if start + count > {_ADDRESSES}:"
+        yield f"        fail(b, Fault.RANGE, {places[names.index('count')]}, 'count', 'none beyond address 65535')"
+    for name, token, at in zip(names, fixed, places, strict=True):
+        if not token.name and at > 1 + ("literal_2" in names and fixed[1].literal == 0x46):
+            yield f"    if {name} != {token.literal}:"
+            yield f"        fail(b, Fault.RESERVED, {at}, '', '{token.literal:02X}')"
+    for name, at in zip(names, places, strict=True):
+        if name in items and items[name].read:
+            yield "    try:"
+            yield f"        {name} = read_{name}({name})"
+            yield "    except KeyError:"
+            yield f"        fail(b, Fault.VALUE, {at}, {name!r}, item_{name}.allowed)"
+    yield "    m = new(message)"
+    for name in items:
+        yield f"    set_{name}(m, {name})"
+    yield "    return m"
+
+
+def _checker(tail: Token, items: dict[str, Item]) -> Iterator[str]:
+    yield "def check(m):"
+    for name in items:
+        yield f"    if not accepts_{name}(m.{name}): refuse(m, {name!r}, item_{name}.allowed)"
+    if "start" in items:
+        count = "m.count" if "count" in items else f"len(m.{tail.name})"
+        yield f"    if m.start + {count} > {_ADDRESSES}: refuse(m, 'start', 'none beyond address 65535')"

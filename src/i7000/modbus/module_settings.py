@@ -1,0 +1,193 @@
+"""Function 46h, the module: name, firmware, address, line and protocol (manual 3.3.1 to 3.3.4, 3.3.7).
+
+Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+"""
+
+from attrs import frozen
+
+from i7000.errors import EncodeError
+from i7000.modbus import layout
+from i7000.modbus.request import Request, Response
+from i7000.profile import Profile
+from i7000.settings import BaudRate, CharacterFormat
+
+__all__ = [
+    "CommunicationSettings",
+    "CommunicationSettingsResult",
+    "FirmwareVersion",
+    "ModuleAddressResult",
+    "ModuleName",
+    "ReadCommunicationSettings",
+    "ReadFirmwareVersion",
+    "ReadModuleName",
+    "SetCommunicationSettings",
+    "SetModuleAddress",
+]
+
+_LAST_ADDRESS = 247
+
+
+@frozen
+class ModuleName(Response):
+    """Tell the name of the series.
+
+    Wire: ``46 00 name:4``
+    Shape: 00 70 17 00 is the M-7017 series, 00 70 18 00 the M-7018, 00 70 19 00 the M-7019 series.
+    Manual: 3.3.1; E75, E77.
+    """
+
+    pdu = "46 00 name:4"
+    section = "3.3.1"
+    title = "module name"
+
+    name: layout.Name
+
+
+class ReadModuleName(Request[ModuleName]):
+    """Ask for the name of the series.
+
+    Wire: ``46 00`` -> ``46 00 name:4``
+    Manual: 3.3.1; E75, E77.
+    """
+
+    pdu = "46 00"
+    section = "3.3.1"
+    title = "module name"
+
+
+@frozen
+class ModuleAddressResult(Response):
+    """Tell whether the address was set.
+
+    Wire: ``46 04 result 00 00 00``
+    Manual: 3.3.2; E82, E90.
+    """
+
+    pdu = "46 04 result 00 00 00"
+    section = "3.3.2"
+    title = "module address"
+
+    result: layout.Byte
+
+
+@frozen
+class SetModuleAddress(Request[ModuleAddressResult]):
+    """Set the address of the module.
+
+    Wire: ``46 04 new_address 00 00 00`` -> ``46 04 result 00 00 00``
+    Range: 1..247.
+    Errors: `EncodeError` beyond the range.
+    Manual: 3.3.2; E82, E90.
+    """
+
+    pdu = "46 04 new_address 00 00 00"
+    section = "3.3.2"
+    title = "module address"
+    writes = True
+
+    new_address: layout.Byte
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
+        """Refuse an address that no module has."""
+        if not 1 <= self.new_address <= _LAST_ADDRESS:
+            raise EncodeError("new_address", self.new_address, f"1..{_LAST_ADDRESS}", self.section)
+
+
+@frozen
+class CommunicationSettings(Response):
+    """Tell the line and protocol that hold after the next power-on.
+
+    Wire: ``46 05 00 line_settings 00 00 00 protocol 00 00``
+    Manual: 3.3.3; E44, E65.
+    """
+
+    pdu = "46 05 00 line_settings 00 00 00 protocol 00 00"
+    section = "3.3.3"
+    title = "communication settings"
+
+    line_settings: layout.LineByte
+    protocol: layout.ProtocolByte
+
+
+class ReadCommunicationSettings(Request[CommunicationSettings]):
+    """Ask for the line and protocol that hold after the next power-on.
+
+    Wire: ``46 05 00`` -> ``46 05 00 line_settings 00 00 00 protocol 00 00``
+    Manual: 3.3.3; E44, E65.
+    """
+
+    pdu = "46 05 00"
+    section = "3.3.3"
+    title = "communication settings"
+
+
+@frozen
+class CommunicationSettingsResult(Response):
+    """Tell whether line and protocol were set.
+
+    Wire: ``46 06 00 line_result 00 00 00 protocol_result 00 00``
+    Manual: 3.3.4; E44, E65, E90, E91.
+    """
+
+    pdu = "46 06 00 line_result 00 00 00 protocol_result 00 00"
+    section = "3.3.4"
+    title = "communication settings"
+
+    line_result: layout.Byte
+    protocol_result: layout.Byte
+
+
+@frozen
+class SetCommunicationSettings(Request[CommunicationSettingsResult]):
+    """Set the line and protocol that hold after the next power-on.
+
+    Wire: ``46 06 00 line_settings 00 00 00 protocol 00 00`` -> ``46 06 00 line_result 00 00 00 protocol_result 00 00``
+    Errors: `EncodeError` for a baud rate or character format that the module does not have.
+    Manual: 3.3.4; E44, E65, E90, E91.
+    """
+
+    pdu = "46 06 00 line_settings 00 00 00 protocol 00 00"
+    section = "3.3.4"
+    title = "communication settings"
+    writes = True
+
+    line_settings: layout.LineByte
+    protocol: layout.ProtocolByte
+
+    def check(self, profile: Profile) -> None:
+        """Refuse a line that the module cannot have."""
+        line, formats_from = self.line_settings, profile.model.character_formats_from
+        if not isinstance(line.baud_rate, BaudRate):
+            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", self.section)
+        if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
+            allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
+            raise EncodeError("character_format", line.character_format.name, allowed, self.section)
+
+
+@frozen
+class FirmwareVersion(Response):
+    """Tell the firmware version.
+
+    Wire: ``46 20 major minor build``
+    Manual: 3.3.7; E67, E75.
+    """
+
+    pdu = "46 20 major minor build"
+    section = "3.3.7"
+    title = "firmware version"
+
+    major: layout.Byte
+    minor: layout.Byte
+    build: layout.Byte
+
+
+class ReadFirmwareVersion(Request[FirmwareVersion]):
+    """Ask for the firmware version.
+
+    Wire: ``46 20`` -> ``46 20 major minor build``
+    Manual: 3.3.7; E67, E75.
+    """
+
+    pdu = "46 20"
+    section = "3.3.7"
+    title = "firmware version"

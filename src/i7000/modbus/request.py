@@ -1,0 +1,91 @@
+"""What every Modbus message is, and the exception that any request can be answered with (manual 3).
+
+Laws: a request names its response by type: ``class ReadCoils(Request[Coils])``. What a module may answer instead, an
+exception, is a value too: `ExceptionResponse`.
+"""
+
+from enum import IntEnum
+from typing import ClassVar, Generic, TypeVar
+
+from attrs import frozen
+
+from i7000 import message
+from i7000.modbus.layout import Address, Byte, ExceptionFunction, Layout
+
+__all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response"]
+
+BROADCAST = 0
+"""The address of a request that all modules carry out and none answers; only what writes can be sent to it."""
+MODULE_SETTINGS = 0x46
+"""The function that has sub-functions."""
+EXCEPTION_BIT = 0x80
+
+
+class ExceptionCode(IntEnum):
+    """Why a module did not carry out a request (manual 3; the names are those of the Modbus specification)."""
+
+    ILLEGAL_FUNCTION = 0x01
+    ILLEGAL_DATA_ADDRESS = 0x02
+    ILLEGAL_DATA_VALUE = 0x03
+    SERVER_DEVICE_FAILURE = 0x04
+    ACKNOWLEDGE = 0x05
+    SERVER_DEVICE_BUSY = 0x06
+    MEMORY_PARITY_ERROR = 0x08
+    GATEWAY_PATH_UNAVAILABLE = 0x0A
+    GATEWAY_TARGET_DEVICE_FAILED_TO_RESPOND = 0x0B
+
+
+@frozen
+class Message(message.Message):
+    """A Modbus message: a request or a response.
+
+    Shape: `pdu` in the notation of `i7000.modbus.layout`.
+    """
+
+    pdu: ClassVar[str]
+    layout: ClassVar[Layout] = message.CompiledOnce(Layout.compile)  # type: ignore[assignment] # until the first use
+
+    address: Address
+
+
+class Response(Message):
+    """What a module answers."""
+
+
+R = TypeVar("R", bound=Response)
+"""The response of a request."""
+
+
+class Request(Message, Generic[R]):
+    """A request to one module, and the type of its response; to address 0, `BROADCAST`, there is none."""
+
+    response: ClassVar[type[Response]]
+    function: ClassVar[int]
+    sub_function: ClassVar[int | None]
+    writes: ClassVar[bool] = False
+    """Whether it changes something, so that it can be sent to all modules."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.response = message.type_of_answer(cls)
+        function, *rest = cls.pdu.split(" ")
+        cls.function = int(function, 16)
+        cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None
+
+
+@frozen
+class ExceptionResponse(Response):
+    """Say that a request was not carried out, and why: the answer that any request can have.
+
+    Wire: function + 80h, exception code
+    Shape: `exception_code` as sent; `ExceptionCode` has the codes that are defined.
+    Manual: 3, 3.1, 3.2, 3.3; E90, E94, E99.
+    """
+
+    pdu = "function exception_code"
+    section = "3"
+    title = "exception"
+
+    function: ExceptionFunction
+    """The function of the request, without the bit that makes it an exception."""
+    exception_code: Byte

@@ -1,0 +1,295 @@
+"""The functions of the Modbus specification that the address maps need: 01 02 03 04 05 06 0F 10 (manual 3.1, 3.2, 3.4).
+
+Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kind before: 40489 is holding register 488.
+"""
+
+from attrs import frozen
+
+from i7000.modbus import layout
+from i7000.modbus.request import Request, Response
+
+__all__ = [
+    "Coils",
+    "DiscreteInputs",
+    "HoldingRegisters",
+    "InputRegisters",
+    "MultipleCoilsWritten",
+    "MultipleRegistersWritten",
+    "ReadCoils",
+    "ReadDiscreteInputs",
+    "ReadHoldingRegisters",
+    "ReadInputRegisters",
+    "SingleCoilWritten",
+    "SingleRegisterWritten",
+    "WriteMultipleCoils",
+    "WriteMultipleRegisters",
+    "WriteSingleCoil",
+    "WriteSingleRegister",
+]
+
+
+@frozen
+class Coils(Response):
+    """Tell coils.
+
+    Wire: ``01 bytes values:bits``
+    Shape: as many bits as were asked for; read without its request, the spare bits of the last byte too.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "01 bytes values:bits"
+    section = "3.4"
+    title = "coils"
+
+    values: layout.Bits
+
+
+@frozen
+class ReadCoils(Request[Coils]):
+    """Ask for coils.
+
+    Wire: ``01 start:2 count:2`` -> ``01 bytes values:bits``
+    Range: 1 to 2000 of them, none beyond address 65535.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "01 start:2 count:2"
+    section = "3.4"
+    title = "coils"
+
+    start: layout.Word
+    count: layout.BitCount
+
+
+@frozen
+class DiscreteInputs(Response):
+    """Tell discrete inputs.
+
+    Wire: ``02 bytes values:bits``
+    Shape: as many bits as were asked for; read without its request, the spare bits of the last byte too.
+    Manual: 3.1; E55.
+    """
+
+    pdu = "02 bytes values:bits"
+    section = "3.1"
+    title = "discrete inputs"
+
+    values: layout.Bits
+
+
+@frozen
+class ReadDiscreteInputs(Request[DiscreteInputs]):
+    """Ask for discrete inputs.
+
+    Wire: ``02 start:2 count:2`` -> ``02 bytes values:bits``
+    Range: 1 to 2000 of them, none beyond address 65535.
+    Manual: 3.1; E55.
+    """
+
+    pdu = "02 start:2 count:2"
+    section = "3.1"
+    title = "discrete inputs"
+
+    start: layout.Word
+    count: layout.BitCount
+
+
+@frozen
+class HoldingRegisters(Response):
+    """Tell holding registers.
+
+    Wire: ``03 bytes values:words``
+    Shape: as many words as were asked for.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "03 bytes values:words"
+    section = "3.4"
+    title = "holding registers"
+
+    values: layout.Words
+
+
+@frozen
+class ReadHoldingRegisters(Request[HoldingRegisters]):
+    """Ask for holding registers.
+
+    Wire: ``03 start:2 count:2`` -> ``03 bytes values:words``
+    Range: 1 to 125 of them, none beyond address 65535.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "03 start:2 count:2"
+    section = "3.4"
+    title = "holding registers"
+
+    start: layout.Word
+    count: layout.WordCount
+
+
+@frozen
+class InputRegisters(Response):
+    """Tell input registers.
+
+    Wire: ``04 bytes values:words``
+    Shape: as many words as were asked for.
+    Manual: 3.2; E55.
+    """
+
+    pdu = "04 bytes values:words"
+    section = "3.2"
+    title = "input registers"
+
+    values: layout.Words
+
+
+@frozen
+class ReadInputRegisters(Request[InputRegisters]):
+    """Ask for input registers.
+
+    Wire: ``04 start:2 count:2`` -> ``04 bytes values:words``
+    Range: 1 to 125 of them, none beyond address 65535.
+    Manual: 3.2; E55.
+    """
+
+    pdu = "04 start:2 count:2"
+    section = "3.2"
+    title = "input registers"
+
+    start: layout.Word
+    count: layout.WordCount
+
+
+@frozen
+class SingleCoilWritten(Response):
+    """Say that a coil was written.
+
+    Wire: ``05 coil:2 value:2``
+    Manual: 3.4; E55.
+    """
+
+    pdu = "05 coil:2 value:2"
+    section = "3.4"
+    title = "coil"
+
+    coil: layout.Word
+    value: layout.Coil
+
+
+@frozen
+class WriteSingleCoil(Request[SingleCoilWritten]):
+    """Write one coil.
+
+    Wire: ``05 coil:2 value:2`` -> ``05 coil:2 value:2``
+    Shape: FF00 is true, 0000 false, and nothing else is anything.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "05 coil:2 value:2"
+    section = "3.4"
+    title = "coil"
+    writes = True
+
+    coil: layout.Word
+    value: layout.Coil
+
+
+@frozen
+class SingleRegisterWritten(Response):
+    """Say that a holding register was written.
+
+    Wire: ``06 register:2 value:2``
+    Manual: 3.4; E55.
+    """
+
+    pdu = "06 register:2 value:2"
+    section = "3.4"
+    title = "holding register"
+
+    register: layout.Word
+    value: layout.Word
+
+
+@frozen
+class WriteSingleRegister(Request[SingleRegisterWritten]):
+    """Write one holding register.
+
+    Wire: ``06 register:2 value:2`` -> ``06 register:2 value:2``
+    Manual: 3.4; E55.
+    """
+
+    pdu = "06 register:2 value:2"
+    section = "3.4"
+    title = "holding register"
+    writes = True
+
+    register: layout.Word
+    value: layout.Word
+
+
+@frozen
+class MultipleCoilsWritten(Response):
+    """Say that coils were written.
+
+    Wire: ``0F start:2 count:2``
+    Manual: 3.4; E55.
+    """
+
+    pdu = "0F start:2 count:2"
+    section = "3.4"
+    title = "coils"
+
+    start: layout.Word
+    count: layout.WrittenBitCount
+
+
+@frozen
+class WriteMultipleCoils(Request[MultipleCoilsWritten]):
+    """Write coils.
+
+    Wire: ``0F start:2 count:2 bytes values:bits`` -> ``0F start:2 count:2``
+    Range: 1 to 1968 of them, none beyond address 65535.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "0F start:2 count:2 bytes values:bits"
+    section = "3.4"
+    title = "coils"
+    writes = True
+
+    start: layout.Word
+    values: layout.WrittenBits
+
+
+@frozen
+class MultipleRegistersWritten(Response):
+    """Say that holding registers were written.
+
+    Wire: ``10 start:2 count:2``
+    Manual: 3.4; E55.
+    """
+
+    pdu = "10 start:2 count:2"
+    section = "3.4"
+    title = "holding registers"
+
+    start: layout.Word
+    count: layout.WrittenWordCount
+
+
+@frozen
+class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
+    """Write holding registers.
+
+    Wire: ``10 start:2 count:2 bytes values:words`` -> ``10 start:2 count:2``
+    Range: 1 to 123 of them, none beyond address 65535.
+    Manual: 3.4; E55.
+    """
+
+    pdu = "10 start:2 count:2 bytes values:words"
+    section = "3.4"
+    title = "holding registers"
+    writes = True
+
+    start: layout.Word
+    values: layout.WrittenWords
