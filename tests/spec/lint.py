@@ -24,10 +24,12 @@ SPEC = Path(__file__).parents[2] / "spec"
 SCHEMAS = {
     "tables/modbus_registers": "modbus_registers",
     "vectors/dcon": "dcon_vectors",
+    "vectors/modbus": "modbus_vectors",
     "vectors/readings": "reading_vectors",
     "vectors/readings/legacy.json": "legacy_vectors",
     "vectors/frames/checksums.json": "checksum_vectors",
     "vectors/frames/split.json": "split_vectors",
+    "vectors/frames/crc.json": "crc_vectors",
 }
 """Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""
 
