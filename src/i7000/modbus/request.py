@@ -12,7 +12,7 @@ from attrs import frozen
 from i7000 import message
 from i7000.modbus.layout import Address, Byte, ExceptionFunction, Layout
 
-__all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response"]
+__all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
 BROADCAST = 0
 """The address of a request that all modules carry out and none answers; only what writes can be sent to it."""
@@ -71,6 +71,16 @@ class Request(Message, Generic[R]):
         function, *rest = cls.pdu.split(" ")
         cls.function = int(function, 16)
         cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None
+
+
+@frozen
+class SettingResult(Response):
+    """Tell whether a setting was made.
+
+    Shape: a `result` of 0 says that it was; what others say is not documented (E90).
+    """
+
+    result: Byte
 
 
 @frozen

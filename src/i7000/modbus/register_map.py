@@ -1,0 +1,232 @@
+"""Registers by name, with units: requests that read and write them, values of what comes back (manual 3.4).
+
+Laws: a value that `RegisterMap.decode` gives is one that `RegisterMap.write` takes. Nothing is clamped: a value between
+two counts, or beyond the range of its register, is refused.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from attrs import field, frozen
+
+from i7000.errors import EncodeError
+from i7000.modbus.layout import MOST_BITS, MOST_WORDS, MOST_WRITTEN_WORDS
+from i7000.modbus.register_values import counts_of, value_of
+from i7000.modbus.registers import Access, Area, Kind, Register, rows
+from i7000.modbus.request import ExceptionResponse, Request
+from i7000.modbus.standard import (
+    Coils,
+    DiscreteInputs,
+    HoldingRegisters,
+    InputRegisters,
+    ReadCoils,
+    ReadDiscreteInputs,
+    ReadHoldingRegisters,
+    ReadInputRegisters,
+    WriteMultipleCoils,
+    WriteMultipleRegisters,
+    WriteSingleCoil,
+    WriteSingleRegister,
+)
+from i7000.profile import Profile
+
+__all__ = ["Items", "Plan", "ReadItems", "RegisterMap"]
+
+Items = Coils | DiscreteInputs | HoldingRegisters | InputRegisters
+"""The responses that carry coils, inputs or registers."""
+ReadItems = ReadCoils | ReadDiscreteInputs | ReadHoldingRegisters | ReadInputRegisters
+"""The requests for them."""
+
+_READERS: dict[Area, Any] = {
+    Area.COIL: ReadCoils,
+    Area.DISCRETE_INPUT: ReadDiscreteInputs,
+    Area.INPUT_REGISTER: ReadInputRegisters,
+    Area.HOLDING_REGISTER: ReadHoldingRegisters,
+}
+_MOST_WRITTEN_TO_7019 = 11
+"""Registers in one write to the 7019 series (3.4.8, 3.4.9)."""
+_FIRST_NUMBER = 10001
+
+
+@frozen
+class RegisterMap:
+    """The address map of one module: what it has, by name and by number.
+
+    Errors: `EncodeError` for what the module does not have, what cannot be read or written, what a row cannot hold.
+    Manual: 3.4.1 to 3.4.9.
+
+    >>> from i7000 import Model
+    >>> registers = RegisterMap(Profile(Model.M_7019R))
+    >>> registers.find("host_watchdog_timeout").number, registers.find(40489).name
+    ('40489', 'host_watchdog_timeout')
+    >>> registers.write(0x01, "host_watchdog_timeout", 10.0)
+    WriteSingleRegister(address=0x01, register=488, value=100)
+    """
+
+    profile: Profile
+    rows: tuple[Register, ...] = field(init=False, repr=False, eq=False)
+
+    @rows.default
+    def _rows_of_profile(self) -> tuple[Register, ...]:
+        return rows(self.profile)
+
+    def __iter__(self) -> Iterator[Register]:
+        """Go through the rows, by area and address."""
+        return iter(self.rows)
+
+    def find(self, key: str | int, area: Area | None = None) -> Register:
+        """Find a row by its name, by the manual's number of one of its items, or by the address of one.
+
+        Shape: numbers are ints from 10001 on, or five digits as text (coils: ``"00257"``); lower ints are addresses, of
+            holding registers where `area` does not say otherwise. Of the two rows of a reading, its name finds the
+            input.
+        """
+        place = _place(key, area)
+        found = [
+            row
+            for row in self.rows
+            if (key == row.name and area in (None, row.area))
+            or (place and row.area is place[0] and row.address <= place[1] < row.address + row.count)
+        ]
+        if found:
+            return next((row for row in found if row.area in (Area.DISCRETE_INPUT, Area.INPUT_REGISTER)), found[0])
+        names = ", ".join(sorted({row.name for row in self.rows})) or "it has none"
+        raise EncodeError("register", key, names, "3.4", f"{self.profile.name} has no register {key!r}")
+
+    def read(self, address: int, key: str | int, *, channels: range | None = None) -> ReadItems:
+        """Make the request that reads a row, or some channels of it.
+
+        Special: of a row for more channels than the connecting mode has, those that it has.
+        """
+        row = self.find(key)
+        if row.access is Access.WRITE:
+            raise EncodeError("register", row.name, "it can only be written", "3.4")
+        first, count = self._span(row, channels)
+        request: ReadItems = _READERS[row.area](address, row.address + first, count)
+        return request
+
+    def write(
+        self,
+        address: int,
+        key: str | int,
+        value: Any,  # noqa: ANN401 - what the row holds
+        *,
+        channels: range | None = None,
+        big_endian: bool = False,
+    ) -> Request[Any]:
+        """Make the request that writes a row, or some channels of it.
+
+        Shape: `value` is what `decode` gives: one value for a row of one item, a sequence for several.
+        Special: `big_endian` as in `decode`.
+        """
+        row = self.find(key)
+        if row.access is Access.READ:
+            raise EncodeError("register", row.name, "it can only be read", "3.4")
+        first, count = self._span(row, channels)
+        values = tuple(value) if isinstance(value, Sequence) else (value,)
+        items = count // 2 if row.kind is Kind.UINT32 else count
+        if len(values) != items:
+            raise EncodeError(row.name, value, f"{items} value(s)", "3.4")
+        counts = [it for one in values for it in counts_of(row, one, self.profile, big_endian=big_endian)]
+        start = row.address + first
+        if row.area is Area.COIL:
+            bits = tuple(map(bool, counts))
+            return WriteSingleCoil(address, start, bits[0]) if count == 1 else WriteMultipleCoils(address, start, bits)
+        most = _MOST_WRITTEN_TO_7019 if self.profile.model.series == "7019" else MOST_WRITTEN_WORDS
+        if count > most:
+            raise EncodeError("channels", count, f"{most} registers in one write: {self.profile.model.value}", "3.4")
+        if count == 1:
+            return WriteSingleRegister(address, start, counts[0])
+        return WriteMultipleRegisters(address, start, tuple(counts))
+
+    def decode(
+        self, key: str | int, items: Iterable[int], *, channels: range | None = None, big_endian: bool = False
+    ) -> Any:  # noqa: ANN401 - what the row holds
+        """Tell what was read of a row, or of some channels of it: the `values` of the response.
+
+        Shape: a row of one item gives one value, any other a tuple, channel by channel. Readings are `Reading`, coded
+            settings members of their enumeration, the log of the M-7017mC-16 `LogRecord`.
+        Unit: that of the row.
+        Special: `big_endian` is what coil 00283 of the M-7017mC-16 says: 32-bit values have their high word first.
+        Errors: `DecodeError` for another number of items, and for what is no value of the row.
+        """
+        row = self.find(key)
+        first, count = self._span(row, channels)
+        return value_of(row, tuple(items), first, count, self.profile, big_endian=big_endian)
+
+    def plan(self, address: int, keys: Iterable[str | int], *, big_endian: bool = False) -> "Plan":
+        """Plan to read several rows in as few requests as the limits of a frame allow; neighbours go together."""
+        parts = []
+        for row in sorted({self.find(key) for key in keys}, key=lambda row: (row.area.value, row.address)):
+            request = self.read(address, row.number)
+            parts.append((row, request.start, request.count))
+        requests: list[ReadItems] = []
+        places = []
+        for row, start, count in parts:
+            kind, most = _READERS[row.area], MOST_BITS if row.area.bits else MOST_WORDS
+            last = requests[-1] if requests else None
+            together = start + count - last.start if isinstance(last, kind) else most + 1
+            if last is not None and isinstance(last, kind) and start <= last.start + last.count and together <= most:
+                requests[-1] = kind(address, last.start, max(last.count, together))
+            else:
+                requests.append(kind(address, start, count))
+            places.append((row, len(requests) - 1, start - requests[-1].start, count))
+        return Plan(tuple(requests), tuple(places), self, big_endian)
+
+    def _span(self, row: Register, channels: range | None) -> tuple[int, int]:
+        """Which items of a row are meant: the first, and how many."""
+        several = row.count > 1 and row.kind not in (Kind.UINT32, Kind.RECORD)
+        if channels is None:
+            return 0, min(row.count, self.profile.channels) if several else row.count
+        if not several or channels.step != 1 or not 0 <= channels.start < channels.stop <= row.count:
+            allowed = (
+                f"a range within 0..{row.count - 1}" if several else f"none: {row.name} is not for single channels"
+            )
+            raise EncodeError("channels", channels, allowed, "3.4")
+        return channels.start, len(channels)
+
+
+def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:
+    """The area and address that a number means; None for a name, or a number of no area."""
+    if isinstance(key, int) and key < _FIRST_NUMBER:
+        return area or Area.HOLDING_REGISTER, key
+    text = str(key)
+    if len(text) == 5 and text.isdecimal() and text.isascii() and int(text[0]) in {it.value for it in Area}:
+        return Area(int(text[0])), int(text[1:]) - 1
+    return None
+
+
+@frozen
+class Plan:
+    """Requests that read several rows, and how their responses become values.
+
+    >>> from i7000 import Model
+    >>> plan = RegisterMap(Profile(Model.M_7017)).plan(0x01, ["response_delay", "host_watchdog_timeout", "filter"])
+    >>> plan.requests
+    (ReadCoils(address=0x01, start=258, count=1), ReadHoldingRegisters(address=0x01, start=487, count=2))
+    >>> plan.decode([Coils(0x01, (True,)), HoldingRegisters(0x01, (0, 25))])["host_watchdog_timeout"]
+    2.5
+    """
+
+    requests: tuple[ReadItems, ...]
+    places: tuple[tuple[Register, int, int, int], ...]
+    """Of each row: the request that reads it, its first item in the response, and how many."""
+    registers: RegisterMap
+    big_endian: bool
+
+    def decode(self, responses: Sequence[Items | ExceptionResponse]) -> dict[str, Any]:
+        """Tell the values by name; an exception is the value of all that it refused.
+
+        Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`.
+        """
+        if len(responses) != len(self.requests):
+            raise EncodeError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
+        values: dict[str, Any] = {}
+        for row, at, first, count in self.places:
+            response = responses[at]
+            if isinstance(response, ExceptionResponse):
+                values[row.name] = response
+            else:
+                items = response.values[first : first + count]
+                values[row.name] = self.registers.decode(row.number, items, big_endian=self.big_endian)
+        return values
