@@ -29,7 +29,7 @@ from i7000.strategies.dcon import (
 
 T = TypeVar("T")
 
-FEW = settings(max_examples=settings().max_examples // 8)
+FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every class."""
 
 COMMANDS = [kind for kind in dcon.COMMANDS if issubclass(kind, dcon.Command)]

@@ -177,6 +177,17 @@ def test_profiles_of_every_sort_are_made(wanted: Any) -> None:
     assert wanted(find(profiles(), wanted, settings=settings(QUICKLY, max_examples=5000)))
 
 
+def test_a_module_in_init_mode_may_tell_any_address() -> None:
+    command = dcon.ReadConfiguration(0x00)
+
+    def elsewhere(response: dcon.Response) -> bool:
+        return isinstance(response, dcon.Configuration) and response.address > 1
+
+    told = find(responses(command, PLAINEST), elsewhere, settings=QUICKLY)
+
+    assert told == dcon.decode_response(dcon.encode(told, PLAINEST), command, PLAINEST)
+
+
 @given(profiles(known_types=True))
 def test_known_types_are_one_a_channel(profile: Profile) -> None:
     assert len(profile.type_codes) == profile.channels
