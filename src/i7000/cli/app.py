@@ -25,6 +25,7 @@ app = App(
     name="i7000",
     help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written.",
     help_format="markdown",
+    suppress_keyboard_interrupt=False,
 )
 
 _NUMBERS = 20
@@ -176,7 +177,7 @@ def encode(
         return 1
     text = frame[:-1].decode()
     record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}
-    printer.record(record, [Text(text, "bold"), Text(frame.hex(" "))])
+    printer.record(record, [Text().append(text, "bold"), Text(frame.hex(" "))])
     return 0
 
 

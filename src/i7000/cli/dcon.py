@@ -9,7 +9,7 @@ a factory default that is relied on is named in `Meaning.assumed`.
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 
 from attrs import evolve, frozen
@@ -18,7 +18,7 @@ from i7000 import DataFormat, DecodeError, EncodeError, Fault, Firmware, Model, 
 from i7000.models import AVAILABILITY
 from i7000.readings import decode_field
 
-__all__ = ["ChannelReading", "Known", "Meaning", "answers_nobody", "errata", "gates", "is_command", "meanings", "scope"]
+__all__ = ["ChannelReading", "Known", "Meaning", "errata", "gates", "is_command", "meanings", "scope"]
 
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
@@ -147,11 +147,6 @@ def is_command(frame: bytes) -> bool:
     return frame[0] in _COMMAND_LEADS
 
 
-def answers_nobody(found: Iterable[Meaning]) -> bool:
-    """Whether no response follows a command."""
-    return all(isinstance(meaning.message, dcon.Broadcast) for meaning in found)
-
-
 def errata(message: dcon.Message | type[dcon.Message]) -> tuple[str, ...]:
     """List the errata that the docstring of a message names.
 
@@ -189,6 +184,7 @@ def scope(models: Iterable[Model], section: str) -> str:
 _Found = tuple[dcon.Message, dcon.AnyCommand | None]
 
 
+@lru_cache(maxsize=1024)  # who polls says the same again and again
 def meanings(frame: bytes, asked: bytes | None, known: Known) -> tuple[Meaning, ...]:
     r"""Tell what a frame can mean, as the response to `asked` if that is given.
 

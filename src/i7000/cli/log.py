@@ -57,7 +57,7 @@ def pieces(lines: Iterable[bytes]) -> Iterator[Line]:
     for number, line in enumerate(lines, 1):
         for piece in _PIECE.finditer(line.decode("utf-8", "surrogateescape")):
             body, end = piece.groups()
-            if body.strip():
+            if (body + end).strip():
                 text = _raw(body + end).rstrip(b"\r\n").decode("utf-8", "backslashreplace")
                 yield Line(number, text, _frame(body, ended=end not in _LINE_ENDS))
 

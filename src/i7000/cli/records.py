@@ -11,7 +11,7 @@ from typing import Any
 from attrs import asdict, fields
 
 from i7000 import DecodeError, Fault, LineSettings, ReportSettings, dcon
-from i7000.cli.dcon import ChannelReading, Known, Meaning, answers_nobody, errata, gates, is_command, meanings
+from i7000.cli.dcon import ChannelReading, Known, Meaning, errata, gates, is_command, meanings
 from i7000.cli.log import Line
 from i7000.cli.words import line_settings_words, report_settings_words, type_code_words
 
@@ -107,9 +107,9 @@ def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
             }
             asked = None if command else asked
             continue
-        if asked and not command:
+        if asked and any(meaning.command for meaning in found):
             record["answers"] = asked.number
-        asked = line if command and not answers_nobody(found) else None
+        asked = line if command else None
         candidates = [meaning_record(meaning) for meaning in found]
         yield record | (candidates[0] if len(candidates) == 1 else {"candidates": candidates})
 

@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterable, Iterator
 
 from rich.console import Console
+from rich.segment import Segments
 from rich.text import Text
 
 from i7000 import Model
@@ -25,8 +26,8 @@ class Printer:
 
     def __init__(self, *, json: bool = False) -> None:
         self.json = json
-        self.out = Console(soft_wrap=True, highlight=False)
-        self.err = Console(soft_wrap=True, highlight=False, stderr=True)
+        self.out = Console(highlight=False)
+        self.err = Console(highlight=False, stderr=True)
 
     def record(self, record: Record, lines: Iterable[Text]) -> None:
         """Print a record: as it is, or in lines for people."""
@@ -34,11 +35,17 @@ class Printer:
             self.out.out(json.dumps(record), highlight=False)
         else:
             for line in lines:
-                self.out.print(_printable(line, self.out.encoding))
+                _print(self.out, line)
 
     def error(self, message: object) -> None:
         """Say what is wrong."""
-        self.err.print(_printable(Text(f"i7000: {message}", "red"), self.err.encoding))
+        _print(self.err, _styled(f"i7000: {message}", "red"))
+
+
+def _print(console: Console, line: Text) -> None:
+    """Print a line as segments: text would be wrapped, or lose its last blanks."""
+    segments = _printable(line, console.encoding).render(console, end="\n")
+    console.print(Segments(segments), soft_wrap=True, end="")
 
 
 def _printable(text: Text, encoding: str) -> Text:
@@ -47,7 +54,11 @@ def _printable(text: Text, encoding: str) -> Text:
     if plain.isascii() and plain.isprintable():
         return text
     safe = "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in plain)
-    return Text(safe.encode(encoding, "backslashreplace").decode(encoding), text.style)
+    return Text(safe.encode(encoding, "backslashreplace").decode(encoding))
+
+
+def _styled(words: str, style: str) -> Text:
+    return Text().append(words, style)
 
 
 # --- decode -----------------------------------------------------------------------------------------------------------
@@ -55,9 +66,9 @@ def _printable(text: Text, encoding: str) -> Text:
 
 def frame_lines(record: Record, *, models: bool) -> Iterator[Text]:
     """What a frame means; `models` tells whether to say which models it fits."""
-    yield Text(f"{record['line']:<4} ") + Text(record["text"], "bold")
+    yield Text(f"{record['line']:<4} ").append(record["text"], "bold")
     if record["error"]:
-        yield Text(f"{_INDENT}not understood: {record['error']}", "red")
+        yield _styled(f"{_INDENT}not understood: {record['error']}", "red")
     if record["name"]:
         yield from _meaning(record, models=models, answers=record["answers"])
     for count, candidate in enumerate(record["candidates"]):
@@ -84,7 +95,7 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[T
 
 
 def _row(name: str, words: str) -> Text:
-    return Text(f"{_INDENT}  {name:<15} ", "dim") + Text(words, "default")
+    return _styled(f"{_INDENT}  {name:<15} ", "dim").append(words)
 
 
 def _readings(record: Record) -> Iterator[Text]:
