@@ -7,7 +7,7 @@ from attrs import frozen
 
 from i7000.errors import EncodeError
 from i7000.modbus import layout
-from i7000.modbus.request import Message, Request, Response
+from i7000.modbus.request import Message, Request, Response, SettingResult
 from i7000.profile import Profile
 
 __all__ = [
@@ -74,8 +74,7 @@ class ReadTypeCode(Request[TypeCodeSetting]):
         check_channel(self, self.channel, profile)
 
 
-@frozen
-class TypeCodeResult(Response):
+class TypeCodeResult(SettingResult):
     """Tell whether the type of a channel was set.
 
     Wire: ``46 08 result``
@@ -85,8 +84,6 @@ class TypeCodeResult(Response):
     pdu = "46 08 result"
     section = "3.3.6"
     title = "type code"
-
-    result: layout.Byte
 
 
 @frozen
@@ -101,7 +98,6 @@ class SetTypeCode(Request[TypeCodeResult]):
     pdu = "46 08 00 channel type_code"
     section = "3.3.6"
     title = "type code"
-    writes = True
 
     channel: layout.Byte
     type_code: layout.TypeCodeByte
@@ -146,8 +142,7 @@ class ReadChannelMask(Request[ChannelMask]):
     title = "channel mask"
 
 
-@frozen
-class ChannelMaskResult(Response):
+class ChannelMaskResult(SettingResult):
     """Tell whether channels were switched.
 
     Wire: ``46 26 result``
@@ -157,8 +152,6 @@ class ChannelMaskResult(Response):
     pdu = "46 26 result"
     section = "3.3.9"
     title = "channel mask"
-
-    result: layout.Byte
 
 
 @frozen
@@ -174,7 +167,6 @@ class SetChannelMask(Request[ChannelMaskResult]):
     pdu = "46 26 mask:mask"
     section = "3.3.9"
     title = "channel mask"
-    writes = True
 
     mask: layout.Mask
 
@@ -211,8 +203,7 @@ class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
     title = "miscellaneous settings"
 
 
-@frozen
-class MiscellaneousSettingsResult(Response):
+class MiscellaneousSettingsResult(SettingResult):
     """Tell whether filter and fast mode were set.
 
     Wire: ``46 2A result``
@@ -222,8 +213,6 @@ class MiscellaneousSettingsResult(Response):
     pdu = "46 2A result"
     section = "3.3.11"
     title = "miscellaneous settings"
-
-    result: layout.Byte
 
 
 @frozen
@@ -239,7 +228,6 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
     pdu = "46 2A settings"
     section = "3.3.11"
     title = "miscellaneous settings"
-    writes = True
 
     settings: layout.Byte
 

@@ -101,8 +101,8 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
     >>> encode(ReadInputRegisters(0x01, 0, 8)).hex()
     '010400000008f1cc'
     """
-    if message.address == BROADCAST and not (isinstance(message, Request) and message.writes):
-        raise EncodeError("address", BROADCAST, "1..247 for what is answered, or an answer", message.section)
+    if message.address == BROADCAST and not (isinstance(message, Request) and message.broadcast):
+        raise EncodeError("address", BROADCAST, "1..247; 0 is for functions 05, 06, 0F, 10", message.section)
     if profile is not None and not force:
         if message.section in profile.refused:
             raise EncodeError(
@@ -131,7 +131,11 @@ def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
     """
     body = unseal(frame)
     function = body[1]
+    if body[0] > _LAST_ADDRESS:
+        raise _address_error(frame)
     if function == MODULE_SETTINGS:
+        if len(body) < len("afs"):
+            raise DecodeError(Fault.LENGTH, frame, 2, field="sub_function", allowed="one more byte", section="3.3")
         kind = _BY_SUB_FUNCTION.get(body[2])
         if kind is None:
             raise _sub_function_error(frame, " ".join(f"{it:02X}" for it in _BY_SUB_FUNCTION))
@@ -140,8 +144,8 @@ def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
         if kind is None:
             allowed = " ".join(f"{it:02X}" for it in (*_BY_FUNCTION, MODULE_SETTINGS))
             raise DecodeError(Fault.FUNCTION, frame, 1, field="function", allowed=allowed, section="3")
-    if body[0] > _LAST_ADDRESS or (body[0] == BROADCAST and not kind.writes):
-        raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed="1..247; 0 to write", section="3")
+    if body[0] == BROADCAST and not kind.broadcast:
+        raise _address_error(frame)
     request: Request[Any] = _decode(kind, body, frame, profile)
     return request
 
@@ -158,6 +162,8 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
     ExceptionResponse(address=0x01, function=4, exception_code=2)
     """
     body = unseal(frame)
+    if len(body) < len("afe"):
+        raise DecodeError(Fault.LENGTH, frame, len(body), allowed="5 bytes at least", section="3")
     if body[0] != request.address:
         allowed = f"{request.address:02X}"
         raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed=allowed, section=request.section)
@@ -171,13 +177,19 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
         return ExceptionResponse(body[0], request.function, body[2])
     if request.sub_function is not None and body[2] != request.sub_function:
         raise _sub_function_error(frame, f"{request.sub_function:02X}")
-    if request.writes and request.sub_function is None:
+    if request.broadcast:
         _check_echo(request, body, frame)
     response: R = _held_against(request, _decode(request.response, body, frame, profile), frame)
     return response
 
 
 _LAST_ADDRESS = 247
+
+
+def _address_error(frame: bytes) -> DecodeError:
+    return DecodeError(
+        Fault.ADDRESS, frame, 0, field="address", allowed="1..247, and 0 for functions 05, 06, 0F, 10", section="3"
+    )
 
 
 def _sub_function_error(frame: bytes, allowed: str) -> DecodeError:

@@ -7,7 +7,7 @@ from attrs import field, frozen
 
 from i7000.errors import EncodeError
 from i7000.modbus import layout
-from i7000.modbus.request import Message, Request, Response
+from i7000.modbus.request import Message, Request, Response, SettingResult
 from i7000.profile import Profile
 
 __all__ = [
@@ -75,8 +75,7 @@ class ReadCjcOffset(Request[CjcOffset]):
         check_offset_channel(self, self.channel, profile)
 
 
-@frozen
-class CjcOffsetResult(Response):
+class CjcOffsetResult(SettingResult):
     """Tell whether an offset was set.
 
     Wire: ``46 2C result``
@@ -86,8 +85,6 @@ class CjcOffsetResult(Response):
     pdu = "46 2C result"
     section = "3.3.13"
     title = "CJC offset"
-
-    result: layout.Byte
 
 
 @frozen
@@ -105,7 +102,6 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     pdu = "46 2C channel offset:2"
     section = "3.3.13"
     title = "CJC offset"
-    writes = True
 
     channel: layout.Byte
     offset: layout.SignedWord
@@ -145,8 +141,7 @@ class ReadCjcEnabled(Request[CjcEnabled]):
     title = "CJC switch"
 
 
-@frozen
-class CjcEnabledResult(Response):
+class CjcEnabledResult(SettingResult):
     """Tell whether the compensation was switched.
 
     Wire: ``46 2E result``
@@ -156,8 +151,6 @@ class CjcEnabledResult(Response):
     pdu = "46 2E result"
     section = "3.3.15"
     title = "CJC switch"
-
-    result: layout.Byte
 
 
 @frozen
@@ -171,7 +164,6 @@ class SetCjcEnabled(Request[CjcEnabledResult]):
     pdu = "46 2E 00 enabled"
     section = "3.3.15"
     title = "CJC switch"
-    writes = True
 
     enabled: layout.Flag = field(kw_only=True)
 
@@ -203,8 +195,7 @@ class ReadCjcUpdate(Request[CjcUpdateSetting]):
     title = "CJC update setting"
 
 
-@frozen
-class CjcUpdateResult(Response):
+class CjcUpdateResult(SettingResult):
     """Tell whether the update was set.
 
     Wire: ``46 30 result``
@@ -214,8 +205,6 @@ class CjcUpdateResult(Response):
     pdu = "46 30 result"
     section = "3.3.17"
     title = "CJC update setting"
-
-    result: layout.Byte
 
 
 @frozen
@@ -229,6 +218,5 @@ class SetCjcUpdate(Request[CjcUpdateResult]):
     pdu = "46 30 update"
     section = "3.3.17"
     title = "CJC update setting"
-    writes = True
 
     update: layout.UpdateByte

@@ -12,8 +12,8 @@ from i7000.errors import DecodeError, Fault
 __all__ = ["LONGEST_FRAME", "SHORTEST_FRAME", "crc16", "seal", "unseal"]
 
 LONGEST_FRAME = 256
-SHORTEST_FRAME = 5
-"""Bytes of an exception response; a request has six at least, but for two sub-functions of 46h that have five too."""
+SHORTEST_FRAME = 4
+"""Bytes of address, function and CRC. The shortest that a module answers has one more, an exception."""
 
 _POLYNOMIAL = 0xA001
 _START = 0xFFFF

@@ -43,6 +43,8 @@ class Item:
     """The field from what is on the wire; `KeyError` where that means nothing."""
     fault: Fault = Fault.VALUE
     """What is wrong when `read` raises, or when what was read is not accepted."""
+    bounds: tuple[int, int] | None = None
+    """The range of a plain number: what is looked at before `accepts` is asked, which takes other kinds of int too."""
 
 
 def _is_int(value: object, low: int, high: int) -> bool:
@@ -50,7 +52,7 @@ def _is_int(value: object, low: int, high: int) -> bool:
 
 
 def _number(low: int, high: int, fault: Fault = Fault.VALUE) -> Item:
-    return Item(f"{low}..{high}", lambda value: _is_int(value, low, high), fault=fault)
+    return Item(f"{low}..{high}", lambda value: _is_int(value, low, high), fault=fault, bounds=(low, high))
 
 
 def _choice(kind: Any) -> Item:  # noqa: ANN401 - bool or an enumeration of codes
@@ -137,6 +139,7 @@ def _unpack_bits(data: bytes) -> tuple[bool, ...]:
 _WIDTHS = {"B": 1, "H": 2, "4s": 4}
 _FORMS = {"": "B", "2": "H", "4": "4s"}
 _ADDRESSES = 0x10000
+_WITH_SUB_FUNCTIONS = 0x46
 
 
 @frozen
@@ -238,51 +241,29 @@ def _encoder(fixed: Iterable[Token], tail: Token, items: dict[str, Item]) -> Ite
     yield f"    return {packed}"
 
 
-def _decoder(  # noqa: C901, PLR0912 - a list of checks, in the order in which they are made
-    fixed: list[Token], tail: Token, items: dict[str, Item], size: int
-) -> Iterator[str]:
-    """Make the decoder: lengths are looked at first, then ranges, counts, reserved bytes, and single values."""
+def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int) -> Iterator[str]:
+    """Make the decoder: it looks at the length first, then at ranges, counts, reserved bytes and single values."""
     names = [token.name or f"literal_{at}" for at, token in enumerate(fixed)]
     places = [sum(token.width for token in fixed[:at]) for at in range(len(fixed))]
+    extra = " + mask_bytes(p)" if tail.form == "mask" else ""
     yield "def decode(b, p):"
-    if tail.form in _BYTES:
-        yield f"    if len(b) <= {size}:"
-    else:
-        extra = " + mask_bytes(p)" if tail.form else ""
-        yield f"    if len(b) != {size}{extra}:"
+    yield f"    if len(b) {'<' if tail.form in _BYTES else '!='} {size}{extra}:"
     yield f"        fail(b, Fault.LENGTH, min(len(b), {size}), '', 'address and PDU of {size} bytes and what follows')"
     yield f"    {', '.join(names)}, = unpack(b)"
     for name, at in zip(names, places, strict=True):
         if name in items and items[name].fault is Fault.RANGE:
             yield f"    if not accepts_{name}({name}):"
             yield f"        fail(b, Fault.RANGE, {at}, {name!r}, item_{name}.allowed)"
-    if tail.form in _BYTES:
-        odd = " or bytes & 1" if tail.form == "words" else ""
-        yield f"    if bytes != len(b) - {size}{odd}:"
-        yield f"        fail(b, Fault.COUNT, {places[names.index('bytes')]}, 'bytes', 'the bytes that follow')"
-        yield f"    {tail.name} = unpack_{tail.form}(b[{size}:])"
-        if "count" in names:
-            counted = "count" if tail.form == "words" else "count + 7 >> 3 << 3"
-            at = places[names.index("count")]
-            yield f"    if len({tail.name}) != {counted} or not count:"
-            yield f"        fail(b, Fault.COUNT if count else Fault.RANGE, {at}, 'count', 'the items that follow')"
-            if tail.form == "bits":
-                yield f"    if any({tail.name}[count:]):"
-                yield f"        fail(b, Fault.RESERVED, len(b) - 1, {tail.name!r}, 'spare bits zero')"
-                yield f"    {tail.name} = {tail.name}[:count]"
-        yield (
-            f"    if not accepts_{tail.name}({tail.name}):"
-            if "count" in names
-            else f"    if len({tail.name}) > {MOST_BITS}:"
-        )
-        yield f"        fail(b, Fault.RANGE, {size}, {tail.name!r}, item_{tail.name}.allowed)"
-    elif tail.form:
+    if tail.form == "mask":
         yield f"    {tail.name} = int.from_bytes(b[{size}:], 'big')"
-    if "start" in names and ("count" in names):
+    elif tail.form:
+        yield from _counted(tail, size, "count" in names)
+    if "start" in names:
         yield f"    if start + count > {_ADDRESSES}:"
         yield f"        fail(b, Fault.RANGE, {places[names.index('count')]}, 'count', 'none beyond address 65535')"
-    for name, token, at in zip(names, fixed, places, strict=True):
-        if not token.name and at > 1 + ("literal_2" in names and fixed[1].literal == 0x46):
+    code = 3 if fixed[1].literal == _WITH_SUB_FUNCTIONS else 2
+    for name, token, at in zip(names[code:], fixed[code:], places[code:], strict=True):
+        if not token.name:
             yield f"    if {name} != {token.literal}:"
             yield f"        fail(b, Fault.RESERVED, {at}, '', '{token.literal:02X}')"
     for name, at in zip(names, places, strict=True):
@@ -292,15 +273,40 @@ def _decoder(  # noqa: C901, PLR0912 - a list of checks, in the order in which t
             yield "    except KeyError:"
             yield f"        fail(b, Fault.VALUE, {at}, {name!r}, item_{name}.allowed)"
     yield "    m = new(message)"
-    for name in items:
-        yield f"    set_{name}(m, {name})"
+    yield from (f"    set_{name}(m, {name})" for name in items)
     yield "    return m"
+
+
+def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]:  # noqa: FBT001 - of our own
+    """Read what follows the byte count, the last of `size` bytes; the count of items is before it, if there is one."""
+    name, words = tail.name, tail.form == "words"
+    yield f"    if bytes != len(b) - {size}:"
+    yield f"        fail(b, Fault.LENGTH, min(len(b), {size} + bytes), 'bytes', 'as many as follow')"
+    if items_are_counted:
+        yield f"    if not 1 <= count <= {MOST_WRITTEN_WORDS if words else MOST_WRITTEN_BITS}:"
+        yield f"        fail(b, Fault.RANGE, {size - 3}, 'count', item_{name}.allowed)"
+        yield f"    if bytes != {'2 * count' if words else 'count + 7 >> 3'}:"
+        yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', 'as many as the items have')"
+    else:
+        yield f"    if not 1 <= bytes <= {2 * MOST_WORDS}{' or bytes & 1' if words else ''}:"
+        yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', item_{name}.allowed)"
+    yield f"    {name} = unpack_{tail.form}(b[{size}:])"
+    if items_are_counted and not words:
+        yield f"    if any({name}[count:]):"
+        yield f"        fail(b, Fault.RESERVED, len(b) - 1, {name!r}, 'spare bits zero')"
+        yield f"    {name} = {name}[:count]"
 
 
 def _checker(tail: Token, items: dict[str, Item]) -> Iterator[str]:
     yield "def check(m):"
-    for name in items:
-        yield f"    if not accepts_{name}(m.{name}): refuse(m, {name!r}, item_{name}.allowed)"
+    for name, item in items.items():
+        if item.bounds:
+            yield f"    v = m.{name}"
+            low, high = item.bounds
+            yield f"    if not (v.__class__ is int and {low} <= v <= {high}) and not accepts_{name}(v):"
+        else:
+            yield f"    if not accepts_{name}(m.{name}):"
+        yield f"        refuse(m, {name!r}, item_{name}.allowed)"
     if "start" in items:
         count = "m.count" if "count" in items else f"len(m.{tail.name})"
         yield f"    if m.start + {count} > {_ADDRESSES}: refuse(m, 'start', 'none beyond address 65535')"

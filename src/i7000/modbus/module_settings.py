@@ -7,7 +7,7 @@ from attrs import frozen
 
 from i7000.errors import EncodeError
 from i7000.modbus import layout
-from i7000.modbus.request import Request, Response
+from i7000.modbus.request import Request, Response, SettingResult
 from i7000.profile import Profile
 from i7000.settings import BaudRate, CharacterFormat
 
@@ -55,8 +55,7 @@ class ReadModuleName(Request[ModuleName]):
     title = "module name"
 
 
-@frozen
-class ModuleAddressResult(Response):
+class ModuleAddressResult(SettingResult):
     """Tell whether the address was set.
 
     Wire: ``46 04 result 00 00 00``
@@ -66,8 +65,6 @@ class ModuleAddressResult(Response):
     pdu = "46 04 result 00 00 00"
     section = "3.3.2"
     title = "module address"
-
-    result: layout.Byte
 
 
 @frozen
@@ -83,7 +80,6 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     pdu = "46 04 new_address 00 00 00"
     section = "3.3.2"
     title = "module address"
-    writes = True
 
     new_address: layout.Byte
 
@@ -149,7 +145,6 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
     pdu = "46 06 00 line_settings 00 00 00 protocol 00 00"
     section = "3.3.4"
     title = "communication settings"
-    writes = True
 
     line_settings: layout.LineByte
     protocol: layout.ProtocolByte

@@ -15,7 +15,7 @@ from i7000.modbus.layout import Address, Byte, ExceptionFunction, Layout
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
 BROADCAST = 0
-"""The address of a request that all modules carry out and none answers; only what writes can be sent to it."""
+"""The address of a request that all modules carry out and none answers: functions 05, 06, 0F and 10."""
 MODULE_SETTINGS = 0x46
 """The function that has sub-functions."""
 EXCEPTION_BIT = 0x80
@@ -62,8 +62,8 @@ class Request(Message, Generic[R]):
     response: ClassVar[type[Response]]
     function: ClassVar[int]
     sub_function: ClassVar[int | None]
-    writes: ClassVar[bool] = False
-    """Whether it changes something, so that it can be sent to all modules."""
+    broadcast: ClassVar[bool] = False
+    """Whether it can be sent to all modules."""
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

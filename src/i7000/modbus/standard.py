@@ -188,7 +188,7 @@ class WriteSingleCoil(Request[SingleCoilWritten]):
     pdu = "05 coil:2 value:2"
     section = "3.4"
     title = "coil"
-    writes = True
+    broadcast = True
 
     coil: layout.Word
     value: layout.Coil
@@ -221,7 +221,7 @@ class WriteSingleRegister(Request[SingleRegisterWritten]):
     pdu = "06 register:2 value:2"
     section = "3.4"
     title = "holding register"
-    writes = True
+    broadcast = True
 
     register: layout.Word
     value: layout.Word
@@ -255,7 +255,7 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
     pdu = "0F start:2 count:2 bytes values:bits"
     section = "3.4"
     title = "coils"
-    writes = True
+    broadcast = True
 
     start: layout.Word
     values: layout.WrittenBits
@@ -289,7 +289,7 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
     pdu = "10 start:2 count:2 bytes values:words"
     section = "3.4"
     title = "holding registers"
-    writes = True
+    broadcast = True
 
     start: layout.Word
     values: layout.WrittenWords

@@ -64,7 +64,7 @@ def _rules(side: Side, mask_bytes: tuple[int, ...]) -> dict[tuple[int, int | Non
         key = (request.function, request.sub_function)
         found: tuple[Rule, ...] = ()
         if side is not Side.RESPONSES:
-            found += _rules_of(request.layout, mask_bytes, broadcast=request.writes)
+            found += _rules_of(request.layout, mask_bytes, broadcast=request.broadcast)
         if side is not Side.REQUESTS:
             found += _rules_of(request.response.layout, mask_bytes, broadcast=False)
             rules[request.function | EXCEPTION_BIT, None] = (Rule(_EXCEPTION_LENGTH),)
