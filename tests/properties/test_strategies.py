@@ -183,7 +183,8 @@ def test_a_module_in_init_mode_may_tell_any_address() -> None:
     def elsewhere(response: dcon.Response) -> bool:
         return isinstance(response, dcon.Configuration) and response.address > 1
 
-    told = find(responses(command, PLAINEST), elsewhere, settings=QUICKLY)
+    answers = responses(command, PLAINEST)
+    told = find(answers, elsewhere, settings=QUICKLY)
 
     assert told == dcon.decode_response(dcon.encode(told, PLAINEST), command, PLAINEST)
 
