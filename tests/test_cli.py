@@ -505,6 +505,16 @@ def test_a_log_is_read_from_standard_input(run: Run, arguments: tuple[str, ...])
     assert (result.code, result.err) == (0, "")
 
 
+def test_lines_of_a_log_can_be_arguments(run: Run) -> None:
+    result = run("decode", "--model", "M-7019R", "--", "-> $01A", "<- !012")
+
+    assert (
+        "       answers         ReadCjcUpdate, line 1\n       address         01\n       update          once\n"
+        in result.out
+    )
+    assert result.code == 0
+
+
 def test_nothing_at_all_is_understood(run: Run) -> None:
     result = run("decode", stdin=b"")
 

@@ -87,8 +87,9 @@ def decode(
     r"""Tell what frames mean: those given, or those of a log.
 
     A frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final `0d`.
-    Quote it: the shell knows `$`, `#` and `>` too. Lines of a log can have dates, words (`TX:`), brackets and arrows
-    before the frame; what cannot be understood is printed too, and named at the end.
+    Quote it: the shell knows `$`, `#` and `>` too; and put `--` before frames of which one begins with `->`. Lines of a
+    log can have dates, words (`TX:`), brackets and arrows before the frame; what cannot be understood is printed too,
+    and named at the end.
 
     A response is read together with the command before it. Without `--model` all that it could be is told. With
     `--model`, what is not given has its factory default if the frame fits that, and is left open if not.
