@@ -9,7 +9,6 @@ import re
 from collections.abc import Callable
 from enum import Enum
 from itertools import repeat
-from math import isfinite
 from operator import itemgetter
 from types import MethodType
 from typing import NamedTuple
@@ -363,11 +362,15 @@ def _percent(value: float, type_code: TypeCode) -> float:
     return (value - type_code.minimum) * 100 / (type_code.maximum - type_code.minimum)
 
 
+_HUGE = 1e9
+"""Beyond every span, and small enough to be scaled."""
+
+
 def _number(reading: Reading, type_code: TypeCode) -> float:
     """The value of a reading that is to be sent as type `type_code`, which it must fit."""
     value = reading.value
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise EncodeError("value", value, "a finite number", "1.11")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not -_HUGE < value < _HUGE:
+        raise EncodeError("value", value, "a finite number, of a size that a module can measure", "1.11")
     if reading.unit is not type_code.unit:
         raise EncodeError("unit", reading.unit, f"{type_code.unit}, the unit of type {type_code:02X}", "1.11")
     return value
