@@ -90,16 +90,24 @@ _SHAPES = {
     DataFormat.PERCENT: frozenset({b"+000.00"}),
     DataFormat.HEX: frozenset({b"0000"}),
 }
-_COUNTS = (8, 10, 16, 20)
+
+
+def _splitter(count: int, width: int) -> Callable[[str], tuple[str, ...]]:
+    if count == 1:
+        return lambda text: (text,)
+    return itemgetter(*(slice(at * width, (at + 1) * width) for at in range(count)))
+
+
 _UNIFORM = {
-    data_format: frozenset(shape * count for shape in shapes for count in (1, *_COUNTS))
+    (data_format, count): (
+        _SHAPE[data_format],
+        frozenset(shape * count for shape in shapes),
+        _splitter(count, FIELD_WIDTHS[data_format]),
+    )
     for data_format, shapes in _SHAPES.items()
+    for count in (1, 8, 10, 16, 20)
 }
-_FIELDS_OF: dict[tuple[int, int], Callable[[str], tuple[str, ...]]] = {
-    (count, width): itemgetter(*(slice(at * width, (at + 1) * width) for at in range(count)))
-    for count in _COUNTS
-    for width in set(FIELD_WIDTHS.values())
-} | {(1, width): lambda text: (text,) for width in FIELD_WIDTHS.values()}
+"""How lines of which all fields are numbers of one form are known at one glance, and split."""
 
 
 def is_field(field: str, data_format: DataFormat, *, legacy: bool = False) -> bool:
@@ -112,7 +120,7 @@ def is_field(field: str, data_format: DataFormat, *, legacy: bool = False) -> bo
 
 
 def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool = False) -> tuple[str, ...]:
-    """Split the (Data) of a report into the fields of its channels, each as sent.
+    """Split the (Data) of a report into the fields of its `count` channels (1, 8, 10, 16 or 20), each as sent.
 
     Errors: `DecodeError` with `Fault.LENGTH`, `NUMBER` (text) or `CHARACTER` (hex) and the offset in `text`.
     Manual: 1.11, 2.3; E25, E49.
@@ -120,14 +128,15 @@ def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool
     >>> split_fields("+9999-0000.5-0000", 3, DataFormat.ENGINEERING, legacy=True)
     ('+9999', '-0000.5', '-0000')
     """
+    if not legacy:
+        shape, uniform, split = _UNIFORM[data_format, count]
+        if text.encode().translate(shape) in uniform:
+            return split(text)
     width = FIELD_WIDTHS[data_format]
     if legacy:
         fields = tuple(re.findall(_LEGACY_FIELD[data_format], text))
-    elif len(text) == count * width and text.encode().translate(_SHAPE[data_format]) in _UNIFORM[data_format]:
-        # All are numbers, and of one form: nearly always, and known at one glance.
-        return _FIELDS_OF[count, width](text)
     else:
-        fields = tuple([text[at : at + width] for at in range(0, len(text), width)])
+        fields = tuple(text[at : at + width] for at in range(0, len(text), width))
     if len(fields) != count or (len(text) != count * width and not legacy):
         length = f"{count} fields of {width} characters"
         raise DecodeError(Fault.LENGTH, text.encode(), min(len(text), count * width), allowed=length, section="1.11")

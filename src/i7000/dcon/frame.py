@@ -51,8 +51,7 @@ def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
     b'!0105060077'
     """
     if (
-        not frame
-        or frame.translate(None, _PRINTABLE) != b"\r"
+        frame.translate(None, _PRINTABLE) != b"\r"
         or frame[-1] != _CR
         or frame[0] not in leads
         or len(frame) > LONGEST_FRAME
