@@ -5,18 +5,37 @@ from typing import Any
 
 from attrs import fields
 
-from i7000 import DataFormat, Firmware, LineSettings, Model, Profile, ReportSettings, TypeCode, dcon
+from i7000 import (
+    DataFormat,
+    Firmware,
+    LineSettings,
+    ModbusDataFormat,
+    Model,
+    Profile,
+    ReportSettings,
+    TypeCode,
+    dcon,
+    modbus,
+)
 from i7000.dcon.codec import COMMANDS
 from tests.spec.lint import Record, vectors
 
 MESSAGES: dict[str, Any] = {command.__name__: command for command in COMMANDS}
 MESSAGES |= {command.response.__name__: command.response for command in COMMANDS if issubclass(command, dcon.Command)}
 MESSAGES["Refused"] = dcon.Refused
+MODBUS_MESSAGES: dict[str, Any] = {request.__name__: request for request in modbus.REQUESTS}
+MODBUS_MESSAGES |= {request.response.__name__: request.response for request in modbus.REQUESTS}
+MODBUS_MESSAGES["ExceptionResponse"] = modbus.ExceptionResponse
 
 
 def dcon_vectors(*outcomes: str) -> list[Any]:
     """The vectors of DCON exchanges with one of `outcomes`, as pytest parameters with their ids."""
     return parameters("vectors/dcon", lambda vector: vector["outcome"] in outcomes)
+
+
+def modbus_vectors(*outcomes: str) -> list[Any]:
+    """The same of Modbus exchanges."""
+    return parameters("vectors/modbus", lambda vector: vector["outcome"] in outcomes)
 
 
 def parameters(folder: str, choose: Any = lambda _: True) -> list[Any]:
@@ -37,14 +56,15 @@ def profile_of(record: Record) -> Profile:
         type_codes=tuple(TypeCode(code) for code in record["type_codes"]),
         data_format=DataFormat[record["data_format"].upper()],
         checksum=record["checksum"],
+        modbus_data_format=ModbusDataFormat[record.get("modbus_data_format", "hex").upper()],
     )
 
 
-def message_of(record: Record) -> Any:
+def message_of(record: Record, messages: dict[str, Any] = MESSAGES) -> Any:
     """The message that a vector names."""
     values = dict(record["fields"])
     kinds = {"line_settings": LineSettings.from_byte, "report_settings": ReportSettings.from_byte}
-    kind = MESSAGES[record["type"]]
+    kind = messages[record["type"]]
     for field in fields(kind):
         value = values[field.name]
         if field.name in kinds:
@@ -53,8 +73,15 @@ def message_of(record: Record) -> Any:
             values[field.name] = tuple(value)
         elif field.name == "temperature":
             values[field.name] = float(value)
+        elif field.type.__origin__ is bytes:
+            values[field.name] = bytes.fromhex(value)
         else:
             enum = field.type.__origin__
             if isinstance(enum, type) and issubclass(enum, Enum):
                 values[field.name] = enum(value)
     return kind(**values)
+
+
+def modbus_message_of(record: Record) -> Any:
+    """The Modbus message that a vector names."""
+    return message_of(record, MODBUS_MESSAGES)
