@@ -14,7 +14,8 @@ def test_a_firmware_is_read_in_both_ways_of_writing(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "B", "3.9", "b3.9", "B3", "B3.", "B3.9 ", "B39", "B3.123", "B3.9\n", "Б3.9", None, 39]
+    "text",
+    ["", "B", "3.9", "b3.9", "B3", "B3.", "B3.9 ", "B39", "B3.123", "B3.9\n", "Б3.9", "B\u0663.\u0669", None, 39],
 )
 def test_what_is_no_firmware_is_refused(text: Any) -> None:
     with pytest.raises(EncodeError, match="firmware cannot be"):
@@ -49,8 +50,8 @@ def test_the_three_series_are_all_models() -> None:
     assert not series("7017") & series("7018")
 
 
-@pytest.mark.parametrize("name", ["", "7016", "I-70", "7017Q"])
-def test_a_series_that_does_not_exist_is_refused(name: str) -> None:
+@pytest.mark.parametrize("name", ["", "7016", "I-70", "7017Q", 7017.5])
+def test_a_series_that_does_not_exist_is_refused(name: Any) -> None:
     with pytest.raises(EncodeError, match="series cannot be"):
         series(name)
 
@@ -64,6 +65,8 @@ def test_a_model_is_found_by_its_name_in_any_case() -> None:
 def test_an_unknown_model_is_answered_with_the_near_ones() -> None:
     with pytest.raises(EncodeError, match="I-7019R, M-7019R, M-7019Z"):
         Model.find("7019Q")
+    with pytest.raises(EncodeError, match="model cannot be 3"):
+        Model.find(3)  # type: ignore[arg-type]
     with pytest.raises(EncodeError, match=r"I-7017, .* M-7019Z"):
         Model.find("Q")
 
@@ -91,6 +94,7 @@ def test_single_ended_inputs_are_twenty() -> None:
         (Model.I_7017, {"type_codes": (TypeCode.V_10,) * 7}, "type_codes", "8 of them, or none"),
         (Model.I_7017, {"type_codes": [TypeCode.V_10] * 8}, "type_codes", "a tuple"),
         (Model.I_7017, {"type_codes": (0x08,) * 8}, "type_codes", "08 09"),
+        (Model.I_7017, {"type_codes": ([],) * 8}, "type_codes", "08 09"),
         (
             Model.I_7017,
             {"type_codes": (TypeCode.V_10,) * 7 + (TypeCode.V_5,)},

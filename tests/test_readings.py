@@ -49,6 +49,14 @@ def test_a_current_beyond_4_to_20_ma_is_refused(encode: object, value: float) ->
         encode(Reading(value, Unit.MILLIAMPERE), TypeCode.MA_4_20)
 
 
+@pytest.mark.parametrize("encode", ENCODERS, ids=["engineering", "percent", "hex", "modbus engineering"])
+def test_a_status_that_is_none_is_refused(encode: object) -> None:
+    assert callable(encode)
+
+    with pytest.raises(EncodeError, match="status cannot be 'ok': a Status"):
+        encode(Reading(1.0, Unit.VOLT, "ok"), TypeCode.V_10)  # type: ignore[arg-type]
+
+
 def test_a_temperature_below_the_span_has_a_word_but_no_text() -> None:
     reading = decode_word(0x9000, TypeCode.K)
 

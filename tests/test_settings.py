@@ -21,8 +21,8 @@ def test_every_byte_survives(kind: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", [LineSettings, ReportSettings])
-@pytest.mark.parametrize("byte", [-1, 256])
-def test_what_is_no_byte_is_refused(kind: Any, byte: int) -> None:
+@pytest.mark.parametrize("byte", [-1, 256, "x", 1.5, True])
+def test_what_is_no_byte_is_refused(kind: Any, byte: Any) -> None:
     with pytest.raises(EncodeError, match="settings"):
         kind.from_byte(byte)
 
@@ -44,6 +44,7 @@ def test_the_bits_are_where_the_manual_has_them() -> None:
     ("kind", "values"),
     [
         (LineSettings, {"baud_rate": 64}),
+        (LineSettings, {"baud_rate": True}),
         (LineSettings, {"baud_rate": "9600"}),
         (LineSettings, {"character_format": 2}),
         (ReportSettings, {"data_format": 4}),

@@ -18,7 +18,7 @@ from i7000.type_codes import TypeCode
 
 __all__ = ["AVAILABILITY", "CONFIGURABLE", "Availability", "Firmware", "Gates", "Model", "series"]
 
-_FIRMWARE = re.compile(r"([A-Z])(\d)(?:\.(\d{1,2})|(\d\d))")
+_FIRMWARE = re.compile(r"([A-Z])([0-9])(?:\.([0-9]{1,2})|([0-9]{2}))")
 
 
 @total_ordering
@@ -105,7 +105,7 @@ class Model(Enum):
 
         Errors: `EncodeError` that names the nearest ones.
         """
-        wanted = name.upper()
+        wanted = str(name).upper()
         if wanted in ("I-7019", "M-7019"):
             wanted += "R"
         for model in cls:
@@ -259,7 +259,7 @@ def series(*names: str) -> frozenset[Model]:
     models: set[Model] = set()
     for name in names:
         found = {model for model in Model if name in (model.value, model.value[2:])}
-        if name[-4:] in ("7017", "7018", "7019"):
+        if str(name)[-4:] in ("7017", "7018", "7019"):
             found = {model for model in Model if name in (model.value[:6], model.series)}
         if not found:
             raise EncodeError("series", name, "a model, or the beginning of one up to its four digits", "1")

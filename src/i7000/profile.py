@@ -121,8 +121,8 @@ class Profile:
         model = self.model.value
         if len(self.type_codes) not in (0, self.channels):
             raise EncodeError("type_codes", self.type_codes, f"{self.channels} of them, or none: {model}", "1.3")
-        for code in set(self.type_codes):
-            if not (isinstance(code, TypeCode) and self.supports(code)):
+        for code in dict.fromkeys(it if isinstance(it, TypeCode) else None for it in self.type_codes):
+            if code is None or not self.supports(code):
                 raise EncodeError("type_codes", code, f"{self.supported_types()}: {model}", "1.11")
         if len(set(self.type_codes)) > 1 and not self.individually_configurable:
             raise EncodeError("type_codes", self.type_codes, f"one type for all channels: {model}", "2.15")

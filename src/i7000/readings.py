@@ -209,6 +209,7 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat)
     if data_format is DataFormat.HEX:
         return f"{encode_word(reading, type_code):04X}"
     if reading.status is not Status.OK:
+        _check_status(reading)
         return _OUT_OF_RANGE_TEXTS[data_format][reading.status]
     value = _number(reading, type_code)
     if data_format is DataFormat.ENGINEERING:
@@ -230,10 +231,14 @@ def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFo
         and not profile.legacy_sentinels
     ):  # nearly always, so it is done without a step in Python for each channel
         return tuple(map(_make_reading, zip(map(float, fields), profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
-    return tuple(
-        decode_field(field, type_code, data_format, legacy=profile.legacy_sentinels)
-        for field, type_code in zip(fields, profile.type_codes, strict=True)
-    )
+    found = []
+    for channel, (field, type_code) in enumerate(zip(fields, profile.type_codes, strict=True)):
+        try:
+            found.append(decode_field(field, type_code, data_format, legacy=profile.legacy_sentinels))
+        except DecodeError as error:
+            name = f"the value of channel {channel}"
+            raise DecodeError(error.fault, error.wire, field=name, allowed=error.allowed, section="1.11") from None
+    return tuple(found)
 
 
 _NOT_NUMBERS = frozenset((*_TEXT_SENTINELS, _TEXT_BLANKS))
@@ -348,6 +353,7 @@ def _signed(word: int) -> int:
 
 
 def _sentinel_word(reading: Reading, type_code: TypeCode, sentinels: dict[int, Status]) -> int:
+    _check_status(reading)
     for word, status in sentinels.items():
         if status is reading.status:
             return word
@@ -383,6 +389,11 @@ def _number(reading: Reading, type_code: TypeCode) -> float:
     if reading.unit is not type_code.unit:
         raise EncodeError("unit", reading.unit, f"{type_code.unit}, the unit of type {type_code:02X}", "1.11")
     return value
+
+
+def _check_status(reading: Reading) -> None:
+    if not isinstance(reading.status, Status):
+        raise EncodeError("status", reading.status, "a Status", "1.11")
 
 
 def _beyond(reading: Reading, type_code: TypeCode, low: float, high: float) -> EncodeError:

@@ -118,8 +118,12 @@ class CjcUpdate(IntEnum):
     ONCE = 2
 
 
+def _is_int(value: object, maximum: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= maximum
+
+
 def _byte(name: str, value: int) -> int:
-    if not 0 <= value <= _BYTE:
+    if not _is_int(value, _BYTE):
         raise EncodeError(name, value, "00..FF", "1.11")
     return value
 
@@ -136,7 +140,7 @@ class LineSettings:
     character_format: CharacterFormat = CharacterFormat.N81
 
     def __attrs_post_init__(self) -> None:
-        if not (isinstance(self.baud_rate, int) and 0 <= self.baud_rate < 1 << 6):
+        if not _is_int(self.baud_rate, 0x3F):
             raise EncodeError("baud_rate", self.baud_rate, "a code 00..3F; defined are 03..0A", "1.11")
         if not isinstance(self.character_format, CharacterFormat):
             raise EncodeError("character_format", self.character_format, "a CharacterFormat", "1.11")
@@ -173,9 +177,9 @@ class ReportSettings:
     """Three bits that should be zero."""
 
     def __attrs_post_init__(self) -> None:
-        if not (isinstance(self.data_format, int) and 0 <= self.data_format < 1 << 2):
+        if not _is_int(self.data_format, 3):
             raise EncodeError("data_format", self.data_format, "a code 0..3; defined are 0..2", "1.11")
-        if not (isinstance(self.reserved, int) and 0 <= self.reserved < 1 << 3):
+        if not _is_int(self.reserved, 7):
             raise EncodeError("reserved", self.reserved, "0..7; should be 0", "1.11")
         if not isinstance(self.filter, Filter):
             raise EncodeError("filter", self.filter, "a Filter", "1.11")

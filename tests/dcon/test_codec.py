@@ -128,6 +128,8 @@ def test_mixed_types_are_announced_by_ff_where_they_are_possible() -> None:
         (dcon.SetModuleName, (1, "é"), "name"),
         (dcon.SetModuleName, (1, "a#b"), "name"),
         (dcon.SetModuleName, (1, b"7019"), "name"),
+        (dcon.ModuleName, (1, "A" * 251), "name"),
+        (dcon.FirmwareVersion, (1, ""), "version"),
         (dcon.SetProtocol, (1, 1), "protocol"),
         (dcon.SetCjcUpdate, (1, 3), "update"),
         (dcon.CjcTemperature, (float("nan"),), "temperature"),
@@ -221,8 +223,9 @@ def test_a_configuration_is_changed_in_one_place_and_written_back() -> None:
 def test_masks_and_channels_are_two_writings_of_one_thing() -> None:
     assert {0, 19} == dcon.channels_of(0x80001)
     assert dcon.mask_of([0, 19, 0]) == 0x80001
-    with pytest.raises(EncodeError, match=r"channel cannot be 20: 0\.\.19"):
-        dcon.mask_of({20})
+    for channel in (20, -1, "1", 1.0):
+        with pytest.raises(EncodeError, match=r"channel cannot be .*: 0\.\.19"):
+            dcon.mask_of({channel})  # type: ignore[arg-type]
 
 
 def test_a_negative_mask_has_no_channels() -> None:
@@ -241,7 +244,7 @@ def test_a_negative_mask_has_no_channels() -> None:
         (dcon.ReadAnalogInput(0x01, 0), I_7017, 9),
         (dcon.ReadSynchronizedData(0x01), Profile(Model.M_7019Z, checksum=True), 77),
         (dcon.ReadChannelMask(0x01), Profile(Model.M_7017Z, single_ended=True), 10),
-        (dcon.ReadModuleName(0x01), I_7017, 256),
+        (dcon.ReadModuleName(0x01), I_7017, 254),
     ],
     ids=repr,
 )
@@ -308,7 +311,7 @@ def test_a_reading_needs_a_channel_that_is_there(channel: int) -> None:
 
 @pytest.mark.parametrize("values", [("4C53",) * 8, ("+9999",) * 8])
 def test_readings_of_another_data_format_are_refused(values: tuple[str, ...]) -> None:
-    with pytest.raises(DecodeError, match="number in value"):
+    with pytest.raises(DecodeError, match="number in the value of channel 0"):
         dcon.readings(dcon.AnalogInputs(values), I_7017)
 
 

@@ -39,7 +39,7 @@ from i7000.dcon.configuration import (
     SetChannelTypeCode,
     SetConfiguration,
 )
-from i7000.dcon.frame import COMMAND_LEADS, LONGEST_FRAME, RESPONSE_LEADS, seal, unseal
+from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS, seal, unseal
 from i7000.dcon.identity import (
     ReadFirmwareVersion,
     ReadModuleName,
@@ -384,14 +384,14 @@ def _unknown_types(data: str, profile: Profile) -> DecodeError:
 def longest_response(command: AnyCommand, profile: Profile) -> int:
     """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
 
-    Special: the manual bounds neither the version that is told nor the name: `LONGEST_FRAME` for these two.
+    Special: the manual bounds neither the version that is told nor the name; for these, what a frame can hold.
 
     >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
     58
     """
     if isinstance(command, Broadcast):
         return 0
-    return min(command.response.layout.longest(profile) + 2 * profile.checksum + 1, LONGEST_FRAME)
+    return command.response.layout.longest(profile) + 2 * profile.checksum + 1
 
 
 def pause_after(command: AnyCommand, profile: Profile) -> float:

@@ -60,7 +60,7 @@ def mask_of(channels: Iterable[int]) -> int:
     """
     mask = 0
     for channel in channels:
-        if not 0 <= channel < _MOST_CHANNELS:
+        if not isinstance(channel, int) or not 0 <= channel < _MOST_CHANNELS:
             raise EncodeError("channel", channel, f"0..{_MOST_CHANNELS - 1}", "2.13")
         mask |= 1 << channel
     return mask

@@ -140,7 +140,10 @@ def _temperature(notation: str) -> Part:
 _NAME_CHARACTERS = frozenset(map(chr, range(0x20, 0x7F))) - frozenset("%#$~@!>?")
 
 
-def _text(notation: str, longest: int = LONGEST_FRAME) -> Part:
+_LONGEST_TEXT = LONGEST_FRAME - len("!AAFF\r")
+
+
+def _text(notation: str, longest: int = _LONGEST_TEXT) -> Part:
     """Characters to the end: all of ASCII that is printed, but for the leading characters (E102)."""
 
     def accepts(value: object) -> bool:
@@ -153,9 +156,8 @@ def _text(notation: str, longest: int = LONGEST_FRAME) -> Part:
             raise KeyError(text)
         return text
 
-    limit = f"1 to {longest} characters, " if longest < LONGEST_FRAME else ""
     return Part(
-        notation, f"{limit}printable ASCII without % # $ ~ @ ! > ?", "%b", "{}.encode()",
+        notation, f"1 to {longest} characters, printable ASCII without % # $ ~ @ ! > ?", "%b", "{}.encode()",
         accepts, parse, width="rest", longest=lambda _: longest,
     )  # fmt: skip
 
