@@ -100,7 +100,11 @@ def test_what_a_module_does_not_take_is_refused_with_the_reason(message: Any, pr
     with pytest.raises(EncodeError, match=said):
         dcon.encode(message, profile)
 
-    assert dcon.encode(message, profile, force=True).endswith(b"\r")
+
+@pytest.mark.parametrize("message", [dcon.ReadAnalogInput(0x01, 16), dcon.SetChannelMask(0x01, 0x100)], ids=repr)
+def test_what_has_more_digits_than_the_module_reads_cannot_be_forced(message: Any) -> None:
+    with pytest.raises(EncodeError, match="hex digit"):
+        dcon.encode(message, I_7017, force=True)
 
 
 def test_what_a_module_ignores_may_be_anything() -> None:
@@ -352,3 +356,21 @@ def test_what_no_module_understands_has_no_candidates(frame: bytes) -> None:
 def test_what_no_module_says_has_no_candidates(frame: bytes) -> None:
     with pytest.raises(DecodeError):
         dcon.response_candidates(frame)
+
+
+@pytest.mark.parametrize(
+    ("message", "profile"),
+    [
+        (dcon.SetCjcUpdate(0x01, CjcUpdate.STOPPED), M_7018),
+        (dcon.ReadAnalogInput(0x01, 8), I_7017),
+        (dcon.SetCjcOffset(0x01, 0x1001), M_7018),
+        (dcon.SetChannelMask(0x01, 0xFFFF), Profile(Model.M_7019Z)),
+        (dcon.SetChannelTypeCode(0x01, 0, 0x30), M_7019R),
+    ],
+    ids=repr,
+)
+def test_what_a_module_does_not_take_can_be_forced(message: Any, profile: Profile) -> None:
+    with pytest.raises(EncodeError):
+        dcon.encode(message, profile)
+
+    assert message.layout.encode(message, profile) + b"\r" == dcon.encode(message, profile, force=True)

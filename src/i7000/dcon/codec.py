@@ -159,15 +159,17 @@ _BY_KEY: dict[str, tuple[type[AnyCommand], ...]] = {
 def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
     r"""Write a command, broadcast or response as a frame.
 
-    Special: with `force` it is written even if the module does not have it or would refuse it: for those who test
-        modules.
+    Special: with `force` it is written even if the module does not have it or would refuse it, as long as it has a
+        wire form there: for those who test modules.
     Errors: `EncodeError` that tells the reason.
     Manual: 2.
 
     >>> encode(ReadConfiguration(0x01), Profile(Model.I_7018, checksum=True))
     b'$012B7\r'
     """
-    if not force:
+    if force:
+        message.layout.check_digits(message, profile)
+    else:
         if message.section in profile.refused:
             raise EncodeError(
                 "model", profile.model.value, profile.refused[message.section], message.section,

@@ -272,6 +272,15 @@ class Layout:
                 if not part.accepts(value):
                     raise EncodeError(name, value, part.allowed, message.section)
 
+    def check_digits(self, message: Any, profile: Profile) -> None:  # noqa: ANN401
+        """Refuse numbers that have more digits than the module reads."""
+        for name, part in self.pieces:
+            if isinstance(part, Part) and isinstance(part.width, str) and part.width != "rest":
+                digits: int = getattr(profile, part.width)
+                if getattr(message, name) >> 4 * digits:
+                    allowed = f"{digits} hex digit(s): {profile.model.value}"
+                    raise EncodeError(name, getattr(message, name), allowed, message.section)
+
     def longest(self, profile: Profile) -> int:
         """Tell the most characters that a body can have."""
         return sum(
