@@ -258,13 +258,16 @@ def series(*names: str) -> frozenset[Model]:
     """
     models: set[Model] = set()
     for name in names:
-        found = {model for model in Model if name in (model.value, model.value[2:])}
-        if str(name)[-4:] in ("7017", "7018", "7019"):
-            found = {model for model in Model if name in (model.value[:6], model.series)}
-        if not found:
+        if name not in _NAMES:
             raise EncodeError("series", name, "a model, or the beginning of one up to its four digits", "1")
-        models |= found
+        models |= _NAMES[name]
     return frozenset(models)
+
+
+_NAMES: dict[str, set[Model]] = {}
+for _model in Model:
+    for _name in {_model.value, _model.value[2:], _model.value[:6], _model.series}:
+        _NAMES.setdefault(_name, set()).add(_model)
 
 
 def _codes(first: int, last: int) -> dict[TypeCode, Firmware | None]:
@@ -345,8 +348,8 @@ AVAILABILITY: Mapping[str, Availability] = {
     "2.42": _CONNECTING_MODE,
     "2.43": _CONNECTING_MODE,
     "3.1": Availability(
-        "7019 series, and M-7017 series but the M-7017RMS, from B3.0 only",
-        gates(series("M-7017Z", "M-7017mC-16", "M-7019Z"), M_7019R="B3.0", **_M_7017_SERIES),
+        "M-7019 series, and M-7017 series from B3.0 but the M-7017RMS only",
+        gates(series("M-7017Z", "M-7017mC-16", "M-7019"), **_M_7017_SERIES),
     ),
     "3.2": _M_SERIES,
     "3.3.12": _M_CJC,
