@@ -19,8 +19,6 @@ ROWS = {row["name"]: row for row in (*FUNCTIONS.values(), *SUB_FUNCTIONS.values(
 MAPS = {path.stem: load(path) for path in table_files("modbus_registers")}
 M_MODELS = [model for model in Model if Protocol.MODBUS_RTU in model.protocols]
 PROFILES = [*map(Profile, M_MODELS), Profile(Model.M_7017Z, single_ended=True)]
-OLD_GATE = "the gate of 3.1 has M-7019R from B3.0 only, the rows any firmware"
-
 each_request = pytest.mark.parametrize("request_class", modbus.REQUESTS, ids=lambda kind: kind.__name__)
 
 
@@ -53,10 +51,7 @@ def test_a_request_is_what_its_row_says(request_class: Any) -> None:
 
 
 @each_request
-def test_a_request_is_for_the_models_of_its_row(request_class: Any, request: pytest.FixtureRequest) -> None:
-    if request_class is modbus.ReadDiscreteInputs:
-        request.applymarker(pytest.mark.xfail(reason=OLD_GATE, strict=True))
-
+def test_a_request_is_for_the_models_of_its_row(request_class: Any) -> None:
     assert ROWS[request_class.__name__]["models"] == as_text(AVAILABILITY[request_class.section].gates)
 
 
@@ -192,23 +187,15 @@ def test_every_model_with_modbus_has_one_map() -> None:
     assert sorted(model.value for _, model in MODEL_MAPS) == sorted(model.value for model in M_MODELS)
 
 
-VERSIONS: dict[str, list[Firmware | None]] = {
-    "before": [Firmware(f"B{major}.{minor}") for major in (1, 2) for minor in range(10)],
-    "since": [None, *(Firmware(f"B{major}.{minor}") for major in (3, 4, 5) for minor in range(10))],
-}
-"""Every firmware at which something may change, before and since the first with a map."""
+VERSIONS = [None, *(Firmware(f"B{major}.{minor}") for major in range(1, 6) for minor in range(10))]
+"""Every firmware at which something may change."""
 
 
-@pytest.mark.parametrize("age", VERSIONS)
 @pytest.mark.parametrize(("stem", "model"), MODEL_MAPS, ids=lambda value: getattr(value, "value", ""))
-def test_a_module_has_the_rows_of_its_map_for_every_firmware(
-    stem: str, model: Model, age: str, request: pytest.FixtureRequest
-) -> None:
-    if (model, age) == (Model.M_7019R, "before"):
-        request.applymarker(pytest.mark.xfail(reason=OLD_GATE, strict=True))
+def test_a_module_has_the_rows_of_its_map_for_every_firmware(stem: str, model: Model) -> None:
     data = MAPS[stem]
 
-    for firmware in VERSIONS[age]:
+    for firmware in VERSIONS:
         told = sorted(
             facts_of_row(row)
             for row in data["rows"]

@@ -94,7 +94,8 @@ _BY_SUB_FUNCTION = {request.sub_function: request for request in REQUESTS if req
 def encode(message: Message, profile: Profile | None = None, *, force: bool = False) -> bytes:
     """Write a request or a response as an RTU frame.
 
-    Special: with a profile, what the module does not have is refused, but for `force`. Masks need one for their length.
+    Special: with a profile, what the module does not have is refused, but for `force`. Masks need one for their length,
+        which even `force` cannot exceed.
     Errors: `EncodeError` that tells the reason.
     Manual: 3.
 
@@ -164,17 +165,16 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
     body = unseal(frame)
     if len(body) < len("afe"):
         raise DecodeError(Fault.LENGTH, frame, len(body), allowed="5 bytes at least", section="3")
-    if body[0] != request.address:
-        allowed = f"{request.address:02X}"
+    if body[0] != request.address or body[0] == BROADCAST:
+        allowed = f"{request.address:02X}" if is_answered(request) else "no response to a broadcast"
         raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed=allowed, section=request.section)
     function = body[1]
     if function != request.function:
         if function != request.function | EXCEPTION_BIT:
             allowed = f"{request.function:02X} {request.function | EXCEPTION_BIT:02X}"
             raise DecodeError(Fault.FUNCTION, frame, 1, field="function", allowed=allowed, section=request.section)
-        if len(body) != len("afe"):
-            raise DecodeError(Fault.LENGTH, frame, 3, allowed="5 bytes for an exception", section=request.section)
-        return ExceptionResponse(body[0], request.function, body[2])
+        exception: ExceptionResponse = _decode(ExceptionResponse, body, frame, profile)
+        return exception
     if request.sub_function is not None and body[2] != request.sub_function:
         raise _sub_function_error(frame, f"{request.sub_function:02X}")
     if request.broadcast:

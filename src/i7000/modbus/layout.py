@@ -180,7 +180,7 @@ class Layout:
     tail: str
     """The form of that token, or empty."""
     encode: Callable[[Any, Profile | None], bytes]
-    """Message and profile -> address and PDU; `EncodeError` without the profile that a mask needs."""
+    """Message and profile -> address and PDU; `EncodeError` for a mask that has no profile, or is too long for it."""
     decode: Callable[[bytes, Profile], Any]
     """Address and PDU, and profile -> message; function and sub-function are known to be right; `DecodeError`."""
     check: Callable[[Any], None]
@@ -197,7 +197,8 @@ class Layout:
         names: dict[str, Any] = {
             "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
             "pack_words": _pack_words, "unpack_words": _unpack_words, "pack_bits": _pack_bits,
-            "unpack_bits": _unpack_bits, "mask_bytes": _mask_bytes, "fail": _fail, "refuse": _refuse,
+            "unpack_bits": _unpack_bits, "pack_mask": _pack_mask, "mask_bytes": _mask_bytes,
+            "fail": _fail, "refuse": _refuse,
         }  # fmt: skip
         for name, item in items.items():
             names |= {f"accepts_{name}": item.accepts, f"read_{name}": item.read, f"item_{name}": item}
@@ -207,10 +208,17 @@ class Layout:
         return cls(tokens, form.size, tail.form, names["encode"], names["decode"], names["check"])
 
 
-def _mask_bytes(profile: Profile | None) -> int:
+def _mask_bytes(profile: Profile) -> int:
+    return profile.mask_digits // 2
+
+
+def _pack_mask(mask: int, profile: Profile | None) -> bytes:
     if profile is None:
         raise EncodeError("profile", None, "the module's, which the length of a mask depends on", "3.3.9")
-    return profile.mask_digits // 2
+    length = _mask_bytes(profile)
+    if mask >> 8 * length:
+        raise EncodeError("mask", f"{mask:X}", f"what {length} byte(s) hold: {profile.model.value}", "3.3.9")
+    return mask.to_bytes(length, "big")
 
 
 def _fail(body: bytes, fault: Fault, at: int, field: str, allowed: str) -> None:
@@ -221,7 +229,7 @@ def _refuse(message: Any, field: str, allowed: str) -> None:  # noqa: ANN401
     raise EncodeError(field, getattr(message, field), allowed, message.section)
 
 
-_PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": '{}.to_bytes(mask_bytes(p), "big")'}
+_PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": "pack_mask({}, p)"}
 _BYTES = {"words": "2 * len(m.values)", "bits": "len(m.values) + 7 >> 3"}
 
 
@@ -248,7 +256,8 @@ def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int)
     extra = " + mask_bytes(p)" if tail.form == "mask" else ""
     yield "def decode(b, p):"
     yield f"    if len(b) {'<' if tail.form in _BYTES else '!='} {size}{extra}:"
-    yield f"        fail(b, Fault.LENGTH, min(len(b), {size}), '', 'address and PDU of {size} bytes and what follows')"
+    allowed = f"address and PDU of {size} bytes" + " and what follows" * bool(tail.form)
+    yield f"        fail(b, Fault.LENGTH, min(len(b), {size}), '', {allowed!r})"
     yield f"    {', '.join(names)}, = unpack(b)"
     for name, at in zip(names, places, strict=True):
         if name in items and items[name].fault is Fault.RANGE:

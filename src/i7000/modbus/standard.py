@@ -5,8 +5,10 @@ Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kin
 
 from attrs import frozen
 
+from i7000.errors import EncodeError
 from i7000.modbus import layout
 from i7000.modbus.request import Request, Response
+from i7000.profile import Profile
 
 __all__ = [
     "Coils",
@@ -26,6 +28,9 @@ __all__ = [
     "WriteSingleCoil",
     "WriteSingleRegister",
 ]
+
+_MOST_WRITTEN_TO_7019 = 11
+"""Registers in one write to the 7019 series."""
 
 
 @frozen
@@ -283,7 +288,8 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
 
     Wire: ``10 start:2 count:2 bytes values:words`` -> ``10 start:2 count:2``
     Range: 1 to 123 of them, none beyond address 65535.
-    Manual: 3.4; E55.
+    Errors: `EncodeError` for more than 11 to the 7019 series.
+    Manual: 3.4, 3.4.8, 3.4.9; E55.
     """
 
     pdu = "10 start:2 count:2 bytes values:words"
@@ -293,3 +299,10 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
 
     start: layout.Word
     values: layout.WrittenWords
+
+    def check(self, profile: Profile) -> None:
+        """Refuse more than the module takes at once."""
+        count = len(self.values)
+        if profile.model.series == "7019" and count > _MOST_WRITTEN_TO_7019:
+            allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write: {profile.model.value}"
+            raise EncodeError("count", count, allowed, self.section)
