@@ -2,11 +2,16 @@
 
 import sys
 
-from tests.benchmarks.dcon import codec_results, splitter_results
-from tests.benchmarks.imports import import_results
+from tests.benchmarks import dcon, imports, modbus
 
 missed = 0
-for results in (codec_results, splitter_results, import_results):
+for results in (
+    dcon.codec_results,
+    dcon.splitter_results,
+    modbus.codec_results,
+    modbus.splitter_results,
+    imports.import_results,
+):
     for result in results():
         print(result, flush=True)  # noqa: T201
         missed += not result.met

@@ -24,6 +24,6 @@ def import_seconds(module: str) -> float:
 
 def import_results() -> Iterator[Result]:
     """Import the public modules."""
-    for module in ("i7000", "i7000.dcon"):
+    for module in ("i7000", "i7000.dcon", "i7000.modbus"):
         milliseconds = import_seconds(module) * 1000
         yield Result(f"import {module}, ms above attrs", milliseconds, "<= 20", milliseconds <= 20)
