@@ -9,7 +9,7 @@ from i7000.errors import EncodeError
 from i7000.modbus import layout
 from i7000.modbus.request import Request, Response, SettingResult
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat
+from i7000.settings import BaudRate, CharacterFormat, LineSettings
 
 __all__ = [
     "CommunicationSettings",
@@ -25,6 +25,16 @@ __all__ = [
 ]
 
 _LAST_ADDRESS = 247
+
+
+def check_line(line: LineSettings, profile: Profile, section: str) -> None:
+    """Refuse a line that the module cannot have."""
+    formats_from = profile.model.character_formats_from
+    if not isinstance(line.baud_rate, BaudRate):
+        raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
+    if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
+        allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
+        raise EncodeError("character_format", line.character_format.name, allowed, section)
 
 
 @frozen
@@ -151,12 +161,7 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a line that the module cannot have."""
-        line, formats_from = self.line_settings, profile.model.character_formats_from
-        if not isinstance(line.baud_rate, BaudRate):
-            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", self.section)
-        if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
-            allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
-            raise EncodeError("character_format", line.character_format.name, allowed, self.section)
+        check_line(self.line_settings, profile, self.section)
 
 
 @frozen

@@ -1,16 +1,15 @@
 """Registers by name, with units: requests that read and write them, values of what comes back (manual 3.4).
 
-Laws: a value that `RegisterMap.decode` gives is one that `RegisterMap.write` takes. Nothing is clamped: a value between
-two counts, or beyond the range of its register, is refused.
+Laws: a value that `RegisterMap.decode` gives is one that `RegisterMap.write` takes, if it is in the range of its
+register. Nothing is clamped: a value between two counts, or beyond the range, is told as it is read and not written.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from i7000.errors import EncodeError
-from i7000.modbus.layout import MOST_BITS, MOST_WORDS, MOST_WRITTEN_WORDS
 from i7000.modbus.register_values import counts_of, value_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
 from i7000.modbus.request import ExceptionResponse, Request
@@ -23,7 +22,6 @@ from i7000.modbus.standard import (
     ReadDiscreteInputs,
     ReadHoldingRegisters,
     ReadInputRegisters,
-    WriteMultipleCoils,
     WriteMultipleRegisters,
     WriteSingleCoil,
     WriteSingleRegister,
@@ -43,8 +41,6 @@ _READERS: dict[Area, Any] = {
     Area.INPUT_REGISTER: ReadInputRegisters,
     Area.HOLDING_REGISTER: ReadHoldingRegisters,
 }
-_MOST_WRITTEN_TO_7019 = 11
-"""Registers in one write to the 7019 series (3.4.8, 3.4.9)."""
 _FIRST_NUMBER = 10001
 
 
@@ -130,11 +126,7 @@ class RegisterMap:
         counts = [it for one in values for it in counts_of(row, one, self.profile, big_endian=big_endian)]
         start = row.address + first
         if row.area is Area.COIL:
-            bits = tuple(map(bool, counts))
-            return WriteSingleCoil(address, start, bits[0]) if count == 1 else WriteMultipleCoils(address, start, bits)
-        most = _MOST_WRITTEN_TO_7019 if self.profile.model.series == "7019" else MOST_WRITTEN_WORDS
-        if count > most:
-            raise EncodeError("channels", count, f"{most} registers in one write: {self.profile.model.value}", "3.4")
+            return WriteSingleCoil(address, start, bool(counts[0]))
         if count == 1:
             return WriteSingleRegister(address, start, counts[0])
         return WriteMultipleRegisters(address, start, tuple(counts))
@@ -155,22 +147,17 @@ class RegisterMap:
         return value_of(row, tuple(items), first, count, self.profile, big_endian=big_endian)
 
     def plan(self, address: int, keys: Iterable[str | int], *, big_endian: bool = False) -> "Plan":
-        """Plan to read several rows in as few requests as the limits of a frame allow; neighbours go together."""
-        parts = []
-        for row in sorted({self.find(key) for key in keys}, key=lambda row: (row.area.value, row.address)):
-            request = self.read(address, row.number)
-            parts.append((row, request.start, request.count))
+        """Plan to read several rows in few requests: neighbours go together, no map has more than a frame holds."""
         requests: list[ReadItems] = []
         places = []
-        for row, start, count in parts:
-            kind, most = _READERS[row.area], MOST_BITS if row.area.bits else MOST_WORDS
+        for row in sorted({self.find(key) for key in keys}, key=lambda row: (row.area.value, row.address)):
+            request = self.read(address, row.number)
             last = requests[-1] if requests else None
-            together = start + count - last.start if isinstance(last, kind) else most + 1
-            if last is not None and isinstance(last, kind) and start <= last.start + last.count and together <= most:
-                requests[-1] = kind(address, last.start, max(last.count, together))
+            if isinstance(last, type(request)) and last.start + last.count == request.start:
+                requests[-1] = evolve(last, count=last.count + request.count)
             else:
-                requests.append(kind(address, start, count))
-            places.append((row, len(requests) - 1, start - requests[-1].start, count))
+                requests.append(request)
+            places.append((row, len(requests) - 1, request.start - requests[-1].start, request.count))
         return Plan(tuple(requests), tuple(places), self, big_endian)
 
     def _span(self, row: Register, channels: range | None) -> tuple[int, int]:

@@ -1,6 +1,6 @@
 """What the bits and words of a register mean: counts <-> values in units (manual 3.4, 3.5).
 
-Laws: `counts_of` is the inverse of `value_of`; both refuse what the row cannot hold.
+Laws: `counts_of` is the inverse of `value_of`, and refuses what the row cannot hold.
 """
 
 from collections.abc import Iterable
@@ -10,6 +10,7 @@ from typing import Any
 from attrs import frozen
 
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.modbus.module_settings import check_line
 from i7000.modbus.registers import Kind, Register
 from i7000.profile import Profile
 from i7000.readings import Reading, decode_engineering_word, decode_word
@@ -134,6 +135,8 @@ def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) 
     if row.name in ("type_code", "module_type_code") and not profile.supports(counts):
         allowed = f"{profile.supported_types()}: {profile.model.value}"
         raise EncodeError(row.name, f"{counts:02X}", allowed, "1.11")
+    if row.name == "line_settings":
+        check_line(LineSettings.from_byte(counts), profile, "3.4")
     if row.kind is Kind.UINT32:
         words = (counts & 0xFFFF, counts >> 16)
         return words[::-1] if big_endian else words
