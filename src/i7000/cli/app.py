@@ -4,19 +4,22 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 from attrs import frozen
 from cyclopts import App, CycloptsError, Parameter
 from rich.text import Text
 
-from i7000 import DataFormat, EncodeError, Firmware, Model, Profile, dcon
+from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Profile, dcon, modbus
+from i7000.cli import rtu, rtu_records
 from i7000.cli.dcon import Known
+from i7000.cli.hex_lines import hex_pieces
 from i7000.cli.log import pieces
+from i7000.cli.message import DCON, MODBUS, frame_text, make
 from i7000.cli.message import encode as encode_message
-from i7000.cli.message import make
-from i7000.cli.records import command_record, line_records
-from i7000.cli.text import Printer, command_lines, frame_lines
+from i7000.cli.records import Record, command_record, line_records
+from i7000.cli.registers import register_record
+from i7000.cli.text import Printer, command_lines, frame_lines, register_lines, request_lines
 from i7000.cli.words import UsageError, type_codes
 
 __all__ = ["app", "run"]
@@ -30,6 +33,8 @@ app = App(
 
 _NUMBERS = 20
 """Lines that are named at the end."""
+
+_Protocol = Annotated[Literal["dcon", "rtu"], Parameter(help="DCON, or Modbus RTU.")]
 
 
 @Parameter(name="*")
@@ -49,12 +54,18 @@ class Module:
     """Whether its frames have a checksum."""
     single_ended: Annotated[bool | None, Parameter(negative="--differential")] = None
     """Whether its inputs are single-ended: 7017Z only."""
+    modbus_format: ModbusDataFormat | None = None
+    """How its analog registers are written."""
 
-    def known(self) -> Known:
+    def known(self, protocol: _Protocol = "dcon") -> Known:
         """The options as values.
 
         Errors: `UsageError`.
         """
+        if protocol == "rtu" and (self.data_format is not None or self.checksum is not None):
+            raise UsageError("--format and --checksum are of DCON; the registers have --modbus-format")
+        if protocol == "dcon" and self.modbus_format is not None:
+            raise UsageError("--modbus-format is of --protocol rtu; DCON has --format")
         try:
             known = Known(
                 None if self.model is None else Model.find(self.model),
@@ -63,6 +74,7 @@ class Module:
                 self.data_format,
                 self.checksum,
                 self.single_ended,
+                self.modbus_format,
             )
             _ = known.default, known.all
         except EncodeError as error:
@@ -81,37 +93,46 @@ _Json = Annotated[bool, Parameter(help="Write JSON, an object a line.", negative
 def decode(
     *frames: Annotated[str, Parameter(help="Frames; without any, the lines of --file or of standard input.")],
     file: Annotated[Path | None, Parameter(help="A log; - is standard input.", allow_leading_hyphen=True)] = None,
+    protocol: _Protocol = "dcon",
     json: _Json = False,
     module: Module = _UNKNOWN,
 ) -> int:
     r"""Tell what frames mean: those given, or those of a log.
 
-    A frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final `0d`.
-    Quote it: the shell knows `$`, `#` and `>` too; and put `--` before frames of which one begins with `->`. Lines of a
-    log can have dates, words (`TX:`), brackets and arrows before the frame; what cannot be understood is printed too,
-    and named at the end.
+    A DCON frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final
+    `0d`. Quote it: the shell knows `$`, `#` and `>` too; and put `--` before frames of which one begins with `->`. A
+    Modbus frame is in hex: `010400000008F1CC`, `01 04 ...`, `0x01,0x04,...`, `\x01\x04...`; one argument a frame, or
+    more that follow one another. Lines of a log can have dates, words (`TX:`), brackets and arrows before the frame;
+    what cannot be understood is printed too, and named at the end.
 
     A response is read together with the command before it. Without `--model` all that it could be is told. With
-    `--model`, what is not given has its factory default if the frame fits that, and is left open if not.
+    `--model`, what is not given has its factory default if the frame fits that, and is left open if not. By Modbus the
+    model gives registers their names, and readings their values.
 
     Exit code: 0 if all was understood (also if in more ways than one), 1 if not, 2 for wrong usage.
 
     JSON has the same keys always, null or empty where there is nothing to tell:
 
-    * the frame: `line`, `direction` (command or response), `text` (the line), `frame`, `wire` (hex), `answers` (line of
-      the command), `error`, `fault`;
+    * the frame: `line`, `direction` (command or response; request, response or echo), `text` (the line), `frame`,
+      `wire` (hex), `answers` (line of the command), `error`, `fault`;
     * its meaning, if it has one: `name`, `title`, `section`, `syntax`, `command` (that it answers), `fields` (numbers,
       as in the vectors of spec), `explained` (the same in words), `readings` (`channel`, `text`, `status`, `type_code`,
-      `value`, `unit`), `errata`, `pause` (seconds to leave the module alone), `models`, `checksum` (null: fits both),
-      `data_formats`, `assumed` (what has its factory default);
+      `value`, `unit`), `registers` (`number`, `name`, `channel`, `value`, `unit`, `status`, `text`), `errata`, `pause`
+      (seconds to leave the module alone), `models`, `checksum` (null: fits both), `data_formats`, `assumed` (what has
+      its factory default), `note` (what else is to be known);
     * if it has more: `candidates`, objects with the keys of a meaning.
     """
-    known = module.known()
+    known = module.known(protocol)
     printer = Printer(json=json)
     count = 0
     wrong: dict[int, None] = {}
     with _source(frames, file) as lines:
-        for record in line_records(pieces(lines), known):
+        records = (
+            rtu_records.line_records(hex_pieces(lines), known)
+            if protocol == "rtu"
+            else line_records(pieces(lines), known)
+        )
+        for record in records:
             count += 1
             if record["error"]:
                 wrong[record["line"]] = None
@@ -148,11 +169,12 @@ def encode(
     name: Annotated[str, Parameter(help="A command, as i7000 commands lists it, or a response.")],
     /,
     *fields: Annotated[str, Parameter(help="field=value for each field.")],
+    protocol: _Protocol = "dcon",
     force: Annotated[bool, Parameter(help="Write it even if the module would refuse it.", negative="")] = False,
     json: _Json = False,
     module: Module = _UNKNOWN,
 ) -> int:
-    """Write a frame: as text, then in hex.
+    """Write a frame: as text, then in hex; by Modbus in hex.
 
     * Numbers are decimal, or hex as `0x3A`; truth values `true` or `false`; choices a name or a number: `update=once`.
     * Types are hex codes or names: `type_code=0F`, `type_code=K`, `type_code=mixed`.
@@ -160,25 +182,27 @@ def encode(
     * `line_settings` is a byte in hex, `line_settings=86`, or its parts: `baud_rate=9600 character_format=E81`.
     * `report_settings` is a byte in hex, `report_settings=40`, or its parts: `data_format=hex checksum=true
       fast_mode=false filter=reject_50_hz`. Parts that are not given are those of the byte, or the factory default.
-    * Fields of readings have commas between: `values=+01.500,-01.500`.
+    * Lists have commas between: `values=+01.500,-01.500`, by Modbus `values=1,0x1F` or `values=true,false`.
 
-    Example: `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`
+    Examples: `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
+    `i7000 encode ReadInputRegisters address=1 start=0 count=8 --protocol rtu`
 
     Exit code: 0; 1 if the model, or every model, refuses it; 2 for wrong usage.
 
     JSON keys: `name`, `section`, `frame`, `wire` (hex).
     """
-    known = module.known()
+    known = module.known(protocol)
     printer = Printer(json=json)
     try:
-        message = make(name, fields)
+        message = make(name, fields, MODBUS if protocol == "rtu" else DCON)
         frame = encode_message(message, known, force=force)
     except EncodeError as refusal:
         printer.error(refusal if known.model else f"no model takes it; the first says: {refusal}")
         return 1
-    text = frame[:-1].decode()
+    text = frame_text(message, frame)
     record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}
-    printer.record(record, [Text().append(text, "bold"), Text(frame.hex(" "))])
+    in_hex = [] if protocol == "rtu" else [Text(frame.hex(" "))]
+    printer.record(record, [Text().append(text, "bold"), *in_hex])
     return 0
 
 
@@ -187,11 +211,13 @@ def commands(
     *,
     model: Annotated[str | None, Parameter(help="The model.")] = None,
     firmware: Annotated[str | None, Parameter(help="Its firmware; the newest if it is not given.")] = None,
+    protocol: _Protocol = "dcon",
     json: _Json = False,
 ) -> int:
     """List what a model can do, or all that any can, and who can.
 
-    Columns: section of the manual, command, response, name, what it is about, models.
+    Columns: section of the manual, command, response, name, what it is about, models; by Modbus the PDU of the request,
+    which begins with function and sub-function, and no response.
 
     JSON keys: `section`, `name`, `title`, `syntax`, `fields` (and their values), `response`, `response_syntax`,
     `models` (and the firmware from which on, or null), `errata`.
@@ -199,11 +225,41 @@ def commands(
     known = Module(model=model, firmware=firmware).known()
     printer = Printer(json=json)
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
-    for command in dcon.COMMANDS:
+    for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
         having = [profile.model.value for profile in profiles if command.section not in profile.refused]
         if having:
-            record = command_record(command, having)
-            printer.record(record, command_lines(record))
+            printer.record(*_listed(command, having))
+    return 0
+
+
+def _listed(command: type[dcon.AnyCommand | modbus.Request[Any]], models: list[str]) -> tuple[Record, Iterable[Text]]:
+    if issubclass(command, modbus.Request):
+        record = rtu_records.request_record(command, models)
+        return record, request_lines(record)
+    record = command_record(command, models)
+    return record, command_lines(record)
+
+
+@app.command
+def registers(
+    *,
+    model: Annotated[str, Parameter(help="The model.")],
+    firmware: Annotated[str | None, Parameter(help="Its firmware; the newest if it is not given.")] = None,
+    json: _Json = False,
+) -> int:
+    """List the coils, inputs and registers that a model has by Modbus.
+
+    Columns: the manual's numbers (the digit before is the kind; frames have the rest less 1), name, access, kind, unit
+    of a count, range of counts.
+
+    JSON keys: `number`, `last_number`, `name`, `address` (as in frames), `count`, `access`, `kind`, `unit`, `scale` (of
+    a count), `minimum`, `maximum` (in counts).
+    """
+    known = Module(model=model, firmware=firmware).known("rtu")
+    printer = Printer(json=json)
+    for row in modbus.RegisterMap(rtu.profiles(known)[0]):
+        record = register_record(row)
+        printer.record(record, register_lines(record))
     return 0
 
 

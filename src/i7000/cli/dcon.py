@@ -14,7 +14,21 @@ from itertools import product
 
 from attrs import evolve, frozen
 
-from i7000 import DataFormat, DecodeError, EncodeError, Fault, Firmware, Model, Profile, Status, TypeCode, Unit, dcon
+from i7000 import (
+    DataFormat,
+    DecodeError,
+    EncodeError,
+    Fault,
+    Firmware,
+    ModbusDataFormat,
+    Model,
+    Profile,
+    Status,
+    TypeCode,
+    Unit,
+    dcon,
+)
+from i7000.message import Message
 from i7000.models import AVAILABILITY
 from i7000.readings import decode_field
 
@@ -36,6 +50,7 @@ class Known:
     data_format: DataFormat | None = None
     checksum: bool | None = None
     single_ended: bool | None = None
+    modbus_data_format: ModbusDataFormat | None = None
 
     @cached_property
     def default(self) -> Profile | None:
@@ -147,7 +162,7 @@ def is_command(frame: bytes) -> bool:
     return frame[0] in _COMMAND_LEADS
 
 
-def errata(message: dcon.Message | type[dcon.Message]) -> tuple[str, ...]:
+def errata(message: Message | type[Message]) -> tuple[str, ...]:
     """List the errata that the docstring of a message names.
 
     >>> errata(dcon.SetConnectingMode)

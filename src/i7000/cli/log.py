@@ -13,7 +13,7 @@ from attrs import frozen
 
 from i7000 import dcon
 
-__all__ = ["Line", "pieces"]
+__all__ = ["Line", "pieces", "shown"]
 
 
 @frozen
@@ -58,8 +58,12 @@ def pieces(lines: Iterable[bytes]) -> Iterator[Line]:
         for piece in _PIECE.finditer(line.decode("utf-8", "surrogateescape")):
             body, end = piece.groups()
             if (body + end).strip():
-                text = _raw(body + end).rstrip(b"\r\n").decode("utf-8", "backslashreplace")
-                yield Line(number, text, _frame(body, ended=end not in _LINE_ENDS))
+                yield Line(number, shown(body + end), _frame(body, ended=end not in _LINE_ENDS))
+
+
+def shown(text: str) -> str:
+    """A piece of a line as it is told: without the line end, bytes that are no UTF-8 escaped."""
+    return _raw(text).rstrip(b"\r\n").decode("utf-8", "backslashreplace")
 
 
 def _raw(text: str) -> bytes:

@@ -4,41 +4,49 @@ Notation: numbers are decimal, or hex as 0x3A; types and bytes of settings are h
 be given as its channels, and the bytes CC and FF by their parts.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import Enum
 from typing import Any, get_args
 
 from attrs import evolve
 
-from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon
+from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
+from i7000.cli import rtu
 from i7000.cli.dcon import Known, scope
 from i7000.cli.records import message_fields
 from i7000.cli.words import UsageError, baud_rate, hex_byte, integer, member, near, truth, type_code
+from i7000.message import Message
 
-__all__ = ["encode", "make"]
+__all__ = ["DCON", "MODBUS", "encode", "frame_text", "make"]
 
-MESSAGES: dict[str, type[dcon.Message]] = {command.__name__: command for command in dcon.COMMANDS}
-MESSAGES |= {
-    command.response.__name__: command.response for command in dcon.COMMANDS if issubclass(command, dcon.Command)
-}
-MESSAGES["Refused"] = dcon.Refused
+DCON: tuple[type[Message], ...] = (
+    *dcon.COMMANDS,
+    *(command.response for command in dcon.COMMANDS if issubclass(command, dcon.Command)),
+    dcon.Refused,
+)
+MODBUS: tuple[type[Message], ...] = (
+    *modbus.REQUESTS,
+    *(request.response for request in modbus.REQUESTS),
+    modbus.ExceptionResponse,
+)
+"""The messages of each protocol; some names are in both."""
 
 
-def encode(message: dcon.Message, known: Known, *, force: bool) -> bytes:
+def encode(message: Message, known: Known, *, force: bool) -> bytes:
     """Write a message, for the model that is known or for all of them, if it is the same for all that have it.
 
     Errors: `EncodeError` if no module takes it, `UsageError` if the frame depends on the model.
     """
-    profiles = (
-        (known.default,)
-        if known.default
-        else evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended)).all
-    )
+    known = evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended))
+    if isinstance(message, modbus.Message):
+        profiles = rtu.profiles(known)
+    else:
+        profiles = (known.default,) if known.default else known.all
     frames: dict[bytes, list[Profile]] = {}
     refusals: list[EncodeError] = []
     for profile in profiles:
         try:
-            frames.setdefault(dcon.encode(message, profile, force=force), []).append(profile)
+            frames.setdefault(_encoded(message, profile, force=force), []).append(profile)
         except EncodeError as refusal:
             refusals.append(refusal)
     if not frames:
@@ -46,14 +54,25 @@ def encode(message: dcon.Message, known: Known, *, force: bool) -> bytes:
     first, *others = frames
     if others:
         ways = "; ".join(
-            f"{frame[:-1].decode()} for {scope((profile.model for profile in found), '')}"
+            f"{frame_text(message, frame)} for {scope((profile.model for profile in found), '')}"
             for frame, found in frames.items()
         )
         raise UsageError(f"the frame depends on the model, give --model: {ways}")
     return first
 
 
-def make(name: str, assignments: tuple[str, ...]) -> dcon.Message:
+def _encoded(message: Message, profile: Profile, *, force: bool) -> bytes:
+    if isinstance(message, modbus.Message):
+        return modbus.encode(message, profile, force=force)
+    return dcon.encode(message, profile, force=force)  # type: ignore[arg-type] # it is one of the two
+
+
+def frame_text(message: Message, frame: bytes) -> str:
+    """A frame as people write it: DCON as text, Modbus in hex."""
+    return frame.hex(" ").upper() if isinstance(message, modbus.Message) else frame[:-1].decode()
+
+
+def make(name: str, assignments: tuple[str, ...], kinds: Sequence[type[Message]] = DCON) -> Message:
     """Make a message.
 
     Errors: `UsageError` for what cannot be understood, `EncodeError` for a value that no such message has.
@@ -61,7 +80,7 @@ def make(name: str, assignments: tuple[str, ...]) -> dcon.Message:
     >>> make("set-channel-mask", ("address=1", "channels=1,3,4,5"))
     SetChannelMask(address=0x01, mask=0x3A)
     """
-    kind = _find(name)
+    kind = _find(name, kinds)
     given: dict[str, str] = {}
     for assignment in assignments:
         field, equals, value = assignment.partition("=")
@@ -89,14 +108,17 @@ def make(name: str, assignments: tuple[str, ...]) -> dcon.Message:
     return kind(**values)
 
 
-def _find(name: str) -> type[dcon.Message]:
-    plain = {known.lower(): known for known in MESSAGES}
+def _find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
+    plain = {kind.__name__.lower(): kind for kind in kinds}
     wanted = name.lower().replace("-", "").replace("_", "")
     if wanted not in plain:
-        close = [plain[word] for word in plain if wanted and wanted in plain[word].lower()]
-        hint = f"; did you mean {' or '.join(close)}?" if close else near(name, list(MESSAGES))
+        other, protocol = (MODBUS, "rtu") if kinds is DCON else (DCON, "dcon")
+        if any(kind.__name__.lower() == wanted for kind in other):
+            raise UsageError(f"{name} is of the other protocol: --protocol {protocol}")
+        close = [plain[word].__name__ for word in plain if wanted and wanted in word]
+        hint = f"; did you mean {' or '.join(close)}?" if close else near(name, [kind.__name__ for kind in kinds])
         raise UsageError(f"there is no {name!r}{hint}")
-    return MESSAGES[plain[wanted]]
+    return plain[wanted]
 
 
 def _named(field: str, text: str, read: Callable[[str], Any]) -> Any:  # noqa: ANN401 - of any field
@@ -121,12 +143,22 @@ def _number(text: str) -> float:
         raise UsageError(f"{text!r} is no number") from None
 
 
+def _hex(text: str) -> bytes:
+    try:
+        return bytes.fromhex(text)
+    except ValueError:
+        raise UsageError(f"{text!r} is no bytes in hex") from None
+
+
 _READERS: dict[Any, Callable[[str], Any]] = {
     bool: truth,
     int: integer,
     float: _number,
     str: str,
+    bytes: _hex,
     tuple[str, ...]: lambda text: tuple(text.split(",")),
+    tuple[int, ...]: lambda text: tuple(map(integer, text.split(","))),
+    tuple[bool, ...]: lambda text: tuple(map(truth, text.split(","))),
 }
 
 # --- values that are made of parts ------------------------------------------------------------------------------------

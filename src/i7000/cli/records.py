@@ -13,23 +13,25 @@ from attrs import asdict, fields
 from i7000 import DecodeError, Fault, LineSettings, ReportSettings, dcon
 from i7000.cli.dcon import ChannelReading, Known, Meaning, errata, gates, is_command, meanings
 from i7000.cli.log import Line
-from i7000.cli.words import line_settings_words, report_settings_words, type_code_words
+from i7000.cli.words import line_settings_words, mask_words, report_settings_words, type_code_words
+from i7000.message import Message
 
-__all__ = ["Record", "command_record", "line_records", "meaning_record", "message_fields"]
+__all__ = ["Record", "command_record", "empty_record", "line_records", "meaning_record", "message_fields"]
 
 Record = dict[str, Any]
 
 
-def message_fields(kind: type[dcon.Message]) -> dict[str, Any]:
+def message_fields(kind: type[Message]) -> dict[str, Any]:
     """List the fields of a message class, and the part of the syntax that each fills."""
     return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
 
 
-def _empty_record() -> Record:
+def empty_record() -> Record:
     """A meaning that is not known: all the keys, and nothing else."""
     return {
         "name": None, "title": None, "section": None, "syntax": None, "command": None, "fields": {}, "explained": {},
-        "readings": [], "errata": [], "pause": 0.0, "models": [], "checksum": None, "data_formats": [], "assumed": [],
+        "readings": [], "registers": [], "errata": [], "pause": 0.0, "models": [], "checksum": None, "data_formats": [],
+        "assumed": [], "note": None,
     }  # fmt: skip
 
 
@@ -37,7 +39,7 @@ def meaning_record(meaning: Meaning) -> Record:
     """A meaning with all that is told about it."""
     message, command = meaning.message, meaning.command
     values = {name: getattr(message, name) for name in message_fields(type(message))}
-    return _empty_record() | {
+    return empty_record() | {
         "name": type(message).__name__,
         "title": message.title,
         "section": command.section if command else message.section,
@@ -123,7 +125,7 @@ def _line_record(line: Line) -> Record:
             "frame": frame[:-1].decode("ascii", "backslashreplace"),
             "wire": frame.hex(),
         }
-    return record | _empty_record() | {"candidates": [], "error": None, "fault": None}
+    return record | empty_record() | {"candidates": [], "error": None, "fault": None}
 
 
 def _alone(frame: bytes, known: Known) -> tuple[Meaning, ...]:
@@ -148,12 +150,6 @@ def _explain(message: dcon.Message, name: str, value: Any) -> str:  # noqa: ANN4
     return _WORDS.get(name, str)(value)
 
 
-def _mask(mask: int) -> str:
-    channels = sorted(dcon.channels_of(mask))
-    word = "no channel" if not channels else "channel" if len(channels) == 1 else "channels"
-    return f"{mask:02X}, {word} {', '.join(map(str, channels))}".rstrip()
-
-
 def _watchdog(status: int) -> str:
     message = dcon.HostWatchdogStatus(0, status)
     enabled = "enabled" if message.enabled else "disabled"
@@ -163,7 +159,7 @@ def _watchdog(status: int) -> str:
 _WORDS: Mapping[str, Callable[[Any], str]] = {
     "address": "{:02X}".format,
     "new_address": "{:02X}".format,
-    "mask": _mask,
+    "mask": mask_words,
     "type_code": type_code_words,
     "line_settings": line_settings_words,
     "report_settings": report_settings_words,

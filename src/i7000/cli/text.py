@@ -6,6 +6,7 @@ is escaped.
 
 import json
 from collections.abc import Iterable, Iterator
+from itertools import groupby
 
 from rich.console import Console
 from rich.segment import Segments
@@ -16,7 +17,7 @@ from i7000.cli.dcon import scope
 from i7000.cli.records import Record
 from i7000.cli.words import type_code_words
 
-__all__ = ["Printer"]
+__all__ = ["Printer", "command_lines", "frame_lines", "register_lines", "request_lines"]
 
 _INDENT = "     "
 
@@ -83,6 +84,7 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[T
         yield _row("answers", f"{record['command']}, line {answers}")
     for name, words in record["explained"].items():
         yield _row(name, words)
+    yield from _registers(record["registers"])
     yield from _readings(record)
     if len(record["data_formats"]) > 1:
         yield _row("format", " or ".join(record["data_formats"]))
@@ -90,6 +92,8 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[T
         yield _row("checksum", "right")
     if record["pause"]:
         yield _row("pause", f"{record['pause']:g} s before the next command")
+    if record["note"]:
+        yield _row("note", record["note"])
     if models:
         yield _row("models", scope(map(Model, record["models"]), record["section"]))
 
@@ -115,6 +119,22 @@ def _readings(record: Record) -> Iterator[Text]:
         yield _row("assumed", f"the factory default of {' and '.join(record['assumed'])}")
 
 
+def _registers(registers: list[Record]) -> Iterator[Text]:
+    """Registers with their values; those without, or with readings that were told, in ranges."""
+    for (name, text, _), group in groupby(registers, _in_range):
+        first, *others = group
+        number = first["number"] + (f"..{others[-1]['number']}" if others else "")
+        channel = "" if others or first["channel"] is None else f" {first['channel']}"
+        yield _row(number, "  ".join(filter(None, ((name or "") + channel, text))))
+
+
+def _in_range(register: Record) -> tuple[str | None, str | None, int | None]:
+    """What registers of one line have in common."""
+    if register["status"]:
+        return register["name"], None, None
+    return register["name"], register["text"], None if register["value"] is None else int(register["number"])
+
+
 # --- commands ---------------------------------------------------------------------------------------------------------
 
 
@@ -128,4 +148,28 @@ def command_lines(record: Record) -> Iterator[Text]:
         .append(f"{record['name']:<28} ", "cyan")
         .append(f"{record['title']:<43} ")
         .append(scope(since, record["section"]), "dim")
+    )
+
+
+def request_lines(record: Record) -> Iterator[Text]:
+    """One request by Modbus, in a line."""
+    since = {Model(model): firmware for model, firmware in record["models"].items()}
+    yield (
+        Text(f"{record['section']:<7} ")
+        .append(f"{record['syntax']:<47} ", "bold")
+        .append(f"{record['name']:<26} ", "cyan")
+        .append(f"{record['title']:<22} ")
+        .append(scope(since, record["section"]), "dim")
+    )
+
+
+def register_lines(record: Record) -> Iterator[Text]:
+    """One row of an address map, in a line."""
+    numbers = record["number"] + (f"..{record['last_number']}" if record["count"] > 1 else "")
+    unit = f"{record['scale']:g} {record['unit']}" if record["scale"] else ""
+    limits = "" if record["minimum"] is None else f"{record['minimum']}..{record['maximum']}"
+    yield (
+        Text(f"{numbers:<12} ", "bold")
+        .append(f"{record['name']:<28} ", "cyan")
+        .append(f"{record['access']:<3} {record['kind']:<7} {unit:<9} {limits}".rstrip())
     )

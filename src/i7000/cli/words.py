@@ -7,13 +7,15 @@ import re
 from difflib import get_close_matches
 from enum import Enum
 
-from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, ReportSettings, TypeCode
+from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, Model, ReportSettings, TypeCode, dcon
 
 __all__ = [
     "UsageError",
     "integer",
     "line_settings_words",
+    "mask_words",
     "member",
+    "module_name_words",
     "near",
     "report_settings_words",
     "truth",
@@ -145,6 +147,28 @@ def line_settings_words(line: LineSettings) -> str:
     rate = line.baud_rate
     baud = f"{rate.bits_per_second} baud" if isinstance(rate, BaudRate) else f"baud rate code {rate:02X} not defined"
     return f"{line.byte:02X}, {baud}, {line.character_format.name}"
+
+
+def mask_words(mask: int) -> str:
+    """Tell a mask.
+
+    >>> mask_words(0x0A), mask_words(0)
+    ('0A, channels 1, 3', '00, no channel')
+    """
+    channels = sorted(dcon.channels_of(mask))
+    word = "no channel" if not channels else "channel" if len(channels) == 1 else "channels"
+    return f"{mask:02X}, {word} {', '.join(map(str, channels))}".rstrip()
+
+
+def module_name_words(name: bytes) -> str:
+    """Tell the name that a module has by Modbus.
+
+    >>> module_name_words(bytes.fromhex("00701900")), module_name_words(bytes(4))
+    ('00701900, M-7019 series', '00000000')
+    """
+    digits = name.hex()
+    known = digits[:2] == digits[6:] == "00" and digits[2:6] in {model.series for model in Model}
+    return f"{digits}, M-{digits[2:6]} series" if known else digits
 
 
 def report_settings_words(report: ReportSettings) -> str:
