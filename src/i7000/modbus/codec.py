@@ -52,6 +52,7 @@ from i7000.modbus.standard import (
     WriteSingleCoil,
     WriteSingleRegister,
 )
+from i7000.models import AVAILABILITY
 from i7000.profile import Profile
 
 __all__ = ["REQUESTS", "decode_request", "decode_response", "encode", "is_answered"]
@@ -107,7 +108,7 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
     if profile is not None and not force:
         if message.section in profile.refused:
             raise EncodeError(
-                "model", profile.model.value, profile.refused[message.section], message.section,
+                "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
                 f"{profile.name} has no {message.title} by Modbus",
             )  # fmt: skip
         message.check(profile)
@@ -205,12 +206,16 @@ def _decode(kind: Any, body: bytes, frame: bytes, profile: Profile) -> Any:  # n
         ) from None
 
 
+_READS_OF_WORDS = (ReadHoldingRegisters, ReadInputRegisters)
+_READS_OF_BITS = (ReadCoils, ReadDiscreteInputs)
+
+
 def _held_against(request: Any, response: Any, frame: bytes) -> Any:  # noqa: ANN401 - of any class
     """Hold the number of items against the request, and drop the spare bits of the last byte."""
-    if isinstance(request, ReadHoldingRegisters | ReadInputRegisters):
+    if isinstance(request, _READS_OF_WORDS):
         if len(response.values) != request.count:
             raise _count_error(frame, 2 * request.count, request.section)
-    elif isinstance(request, ReadCoils | ReadDiscreteInputs):
+    elif isinstance(request, _READS_OF_BITS):
         if len(response.values) != request.count + 7 >> 3 << 3:
             raise _count_error(frame, request.count + 7 >> 3, request.section)
         if any(response.values[request.count :]):

@@ -29,17 +29,15 @@ def _table_of_bytes() -> list[int]:
     return table
 
 
-@cache
-def _tables() -> tuple[list[int], list[int]]:
-    """What one byte and what two bytes do to the CRC; made when first needed."""
-    one = _table_of_bytes()
-    step = [one[low] ^ high for high in range(256) for low in range(256)]
-    return one, [crc >> 8 ^ one[crc & 0xFF] for crc in step]
+_ONE = _table_of_bytes()
+"""What one byte does to the CRC."""
+_TWO: list[int] = []
+"""What two bytes do to it; made when first needed."""
 
 
 @cache
-def _words(count: int) -> Callable[[bytes], tuple[int, ...]]:
-    return struct.Struct(f"<{count}H").unpack
+def _words(count: int) -> Callable[[bytes, int], tuple[int, ...]]:
+    return struct.Struct(f"<{count}H").unpack_from
 
 
 def crc16(data: bytes) -> int:
@@ -48,14 +46,16 @@ def crc16(data: bytes) -> int:
     >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
     'CCF1'
     """
-    one, two = _tables()
+    if not _TWO:
+        pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
+        _TWO.extend([crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs])
     crc = _START
     length = len(data)
-    if length & 1:
-        crc = crc >> 8 ^ one[(crc ^ data[0]) & 0xFF]
-        data = data[1:]
-    for word in _words(length >> 1)(data):
-        crc = two[crc ^ word]
+    odd = length & 1
+    if odd:
+        crc = crc >> 8 ^ _ONE[(crc ^ data[0]) & 0xFF]
+    for word in _words(length >> 1)(data, odd):
+        crc = _TWO[crc ^ word]
     return crc
 
 

@@ -9,14 +9,15 @@ Three tokens have a length of their own and stand last:
 * ``name:words``: two bytes an item.
 
 The last two follow ``bytes``, the count of their bytes; ``count:2`` where no field has that name is that of items. The
-first use of a class compiles its statement to straight-line code around one `struct.Struct`.
+first use of a class compiles its statement to straight-line code around one `struct.Struct`: encoder, decoder and the
+constructor, which checks the values before it sets them.
 
 Laws: the constructor takes exactly the values that a field's `Item` accepts; what is written is read back as it was.
 """
 
 import struct
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
+from functools import cache, partial, update_wrapper
 from typing import Annotated, Any
 
 from attrs import fields, frozen
@@ -121,10 +122,6 @@ def _pack_words(words: tuple[int, ...]) -> bytes:
     return _struct_of_words(len(words)).pack(*words)
 
 
-def _unpack_words(data: bytes) -> tuple[int, ...]:
-    return _struct_of_words(len(data) >> 1).unpack(data)
-
-
 def _pack_bits(bits: tuple[bool, ...]) -> bytes:
     number = sum(1 << at for at, bit in enumerate(bits) if bit)
     return number.to_bytes((len(bits) + 7) >> 3, "little")
@@ -183,8 +180,6 @@ class Layout:
     """Message and profile -> address and PDU; `EncodeError` for a mask that has no profile, or is too long for it."""
     decode: Callable[[bytes, Profile], Any]
     """Address and PDU, and profile -> message; function and sub-function are known to be right; `DecodeError`."""
-    check: Callable[[Any], None]
-    """Refuse values that no message of this class can have."""
 
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
@@ -196,16 +191,23 @@ class Layout:
         form = struct.Struct(">" + "".join(token.form for token in fixed))
         names: dict[str, Any] = {
             "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
-            "pack_words": _pack_words, "unpack_words": _unpack_words, "pack_bits": _pack_bits,
+            "pack_words": _pack_words, "struct_of_words": _struct_of_words, "pack_bits": _pack_bits,
             "unpack_bits": _unpack_bits, "pack_mask": _pack_mask, "mask_bytes": _mask_bytes,
-            "fail": _fail, "refuse": _refuse,
+            "fail": _fail, "refuse": partial(_refuse, message.section),
         }  # fmt: skip
         for name, item in items.items():
             names |= {f"accepts_{name}": item.accepts, f"read_{name}": item.read, f"item_{name}": item}
             names[f"set_{name}"] = getattr(message, name).__set__
-        lines = (*_encoder(fixed, tail, items), *_decoder(fixed, tail, items, form.size), *_checker(tail, items))
+        keywords = [field.name for field in fields(message) if field.kw_only]
+        constructor = _constructor(tail, items, keywords)
+        lines = (*_encoder(fixed, tail, items), *_decoder(fixed, tail, items, form.size), *constructor)
         exec(compile("\n".join(lines), f"<layout of {message.__name__}>", "exec"), names)  # noqa: S102 - our statements
-        return cls(tokens, form.size, tail.form, names["encode"], names["decode"], names["check"])
+        message.__init__ = update_wrapper(names["construct"], message.__init__)
+        return cls(tokens, form.size, tail.form, names["encode"], names["decode"])
+
+    def check(self, message: Any) -> None:  # noqa: ANN401 - a message
+        """Refuse values that no message can have: the first of its class, made by attrs, is constructed again."""
+        message.__init__(**{field.name: getattr(message, field.name) for field in fields(type(message))})
 
 
 def _mask_bytes(profile: Profile) -> int:
@@ -225,8 +227,8 @@ def _fail(body: bytes, fault: Fault, at: int, field: str, allowed: str) -> None:
     raise DecodeError(fault, body, at, field=field, allowed=allowed)
 
 
-def _refuse(message: Any, field: str, allowed: str) -> None:  # noqa: ANN401
-    raise EncodeError(field, getattr(message, field), allowed, message.section)
+def _refuse(section: str, field: str, value: object, allowed: str) -> None:
+    raise EncodeError(field, value, allowed, section)
 
 
 _PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": "pack_mask({}, p)"}
@@ -299,23 +301,25 @@ def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]: 
     else:
         yield f"    if not 1 <= bytes <= {2 * MOST_WORDS}{' or bytes & 1' if words else ''}:"
         yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', item_{name}.allowed)"
-    yield f"    {name} = unpack_{tail.form}(b[{size}:])"
+    unpacked = f"struct_of_words(bytes >> 1).unpack_from(b, {size})" if words else f"unpack_bits(b[{size}:])"
+    yield f"    {name} = {unpacked}"
     if items_are_counted and not words:
         yield f"    if any({name}[count:]):"
         yield f"        fail(b, Fault.RESERVED, len(b) - 1, {name!r}, 'spare bits zero')"
         yield f"    {name} = {name}[:count]"
 
 
-def _checker(tail: Token, items: dict[str, Item]) -> Iterator[str]:
-    yield "def check(m):"
+def _constructor(tail: Token, items: dict[str, Item], keywords: list[str]) -> Iterator[str]:
+    """Make the constructor: what attrs makes of the fields, but straight to the slots, and the values are looked at."""
+    parameters = [name for name in items if name not in keywords] + ["*"] * bool(keywords) + keywords
+    yield f"def construct(self, {', '.join(parameters)}):"
     for name, item in items.items():
+        plain = ""
         if item.bounds:
-            yield f"    v = m.{name}"
             low, high = item.bounds
-            yield f"    if not (v.__class__ is int and {low} <= v <= {high}) and not accepts_{name}(v):"
-        else:
-            yield f"    if not accepts_{name}(m.{name}):"
-        yield f"        refuse(m, {name!r}, item_{name}.allowed)"
+            plain = f"not ({name}.__class__ is int and {low} <= {name} <= {high}) and "
+        yield f"    if {plain}not accepts_{name}({name}): refuse({name!r}, {name}, item_{name}.allowed)"
     if "start" in items:
-        count = "m.count" if "count" in items else f"len(m.{tail.name})"
-        yield f"    if m.start + {count} > {_ADDRESSES}: refuse(m, 'start', 'none beyond address 65535')"
+        count = "count" if "count" in items else f"len({tail.name})"
+        yield f"    if start + {count} > {_ADDRESSES}: refuse('start', start, 'none beyond address 65535')"
+    yield from (f"    set_{name}(self, {name})" for name in items)
