@@ -93,8 +93,8 @@ def test_single_ended_inputs_are_twenty() -> None:
         (Model.I_7018, {"type_codes": (TypeCode.V_10,) * 8}, "type_codes", "I-7018"),
         (Model.I_7017, {"type_codes": (TypeCode.V_10,) * 7}, "type_codes", "8 of them, or none"),
         (Model.I_7017, {"type_codes": [TypeCode.V_10] * 8}, "type_codes", "a tuple"),
-        (Model.I_7017, {"type_codes": (0x08,) * 8}, "type_codes", "08 09"),
-        (Model.I_7017, {"type_codes": ([],) * 8}, "type_codes", "08 09"),
+        (Model.I_7017, {"type_codes": (0x08,) * 8}, "type_codes", "cannot be 8: members of TypeCode"),
+        (Model.I_7017, {"type_codes": ([],) * 8}, "type_codes", "members of TypeCode"),
         (
             Model.I_7017,
             {"type_codes": (TypeCode.V_10,) * 7 + (TypeCode.V_5,)},

@@ -77,7 +77,8 @@ class EncodeError(I7000Error, ValueError):
 class DecodeError(I7000Error, ValueError):
     """Bytes that are not what they should be; `wire` holds them all, nothing is lost.
 
-    Shape: `fault`, `wire`, `offset` (of the first byte at fault), `field` (its name, or empty), `allowed`, `section`.
+    Shape: `fault`, `wire`, `offset` (of the byte at fault, or of the field that is as a whole), `field` (its name, or
+        empty), `allowed`, `section`.
     """
 
     def __init__(  # noqa: PLR0913 - the facts of one fault
@@ -95,7 +96,7 @@ class DecodeError(I7000Error, ValueError):
         return _decode_error, self.args
 
     def __str__(self) -> str:
-        where = f" in {self.field}" if self.field else ""
+        where = f" in {self.field}" if self.field not in ("", self.fault.value) else ""
         allowed = f"; allowed: {self.allowed}" if self.allowed else ""
         source = f" (manual {self.section})" if self.section else ""
         return f"{self.fault.value}{where} at byte {self.offset} of {_short(self.wire)}{allowed}{source}"

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import total_ordering
 
-from attrs import frozen
+from attrs import field, frozen
 
 from i7000.errors import EncodeError
 from i7000.settings import Protocol
@@ -35,21 +35,20 @@ class Firmware:
     """
 
     text: str
+    _key: tuple[str, int, int] = field(init=False)
 
     def __attrs_post_init__(self) -> None:
-        if not isinstance(self.text, str) or not _FIRMWARE.fullmatch(self.text):
+        match = _FIRMWARE.fullmatch(self.text) if isinstance(self.text, str) else None
+        if not match:
             raise EncodeError("firmware", self.text, "a letter, a digit and a minor number: B3.9 or B305", "2.23")
-
-    @property
-    def _key(self) -> tuple[str, int, int]:
-        letter, major, minor, packed = _FIRMWARE.fullmatch(self.text).groups()  # type: ignore[union-attr]
-        return letter, int(major), int(minor or packed)
+        letter, major, minor, packed = match.groups()
+        object.__setattr__(self, "_key", (letter, int(major), int(minor or packed)))
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, Firmware) else NotImplemented
 
-    def __lt__(self, other: "Firmware") -> bool:
-        return self._key < other._key
+    def __lt__(self, other: object) -> bool:
+        return self._key < other._key if isinstance(other, Firmware) else NotImplemented
 
     def __hash__(self) -> int:
         return hash(self._key)

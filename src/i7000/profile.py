@@ -1,7 +1,5 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
-from collections.abc import Mapping
-
 from attrs import field, frozen
 
 from i7000.errors import EncodeError
@@ -48,8 +46,8 @@ class Profile:
     """The unit of each channel, if the types are known."""
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
     """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
-    refused: Mapping[str, str] = field(init=False, eq=False, repr=False)
-    """Sections of chapters 2 and 3 that the module does not have, and who has them."""
+    refused: frozenset[str] = field(init=False, eq=False, repr=False)
+    """Sections of chapters 2 and 3 that the module does not have; `i7000.models.AVAILABILITY` tells who has them."""
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
@@ -65,7 +63,7 @@ class Profile:
         derive(self, "mask_digits", (channels + 7) // 8 * 2)
         old = self.firmware is not None and self.firmware <= _LAST_LEGACY
         derive(self, "legacy_sentinels", old and self.model.value.startswith("I-7018"))
-        refused = {section: it.scope for section, it in AVAILABILITY.items() if not self.has(it.gates)}
+        refused = frozenset(section for section, it in AVAILABILITY.items() if not self.has(it.gates))
         derive(self, "refused", refused)
         self._check_types()
         derive(self, "units", tuple(code.unit for code in self.type_codes))
@@ -121,9 +119,12 @@ class Profile:
         model = self.model.value
         if len(self.type_codes) not in (0, self.channels):
             raise EncodeError("type_codes", self.type_codes, f"{self.channels} of them, or none: {model}", "1.3")
-        for code in dict.fromkeys(it if isinstance(it, TypeCode) else None for it in self.type_codes):
-            if code is None or not self.supports(code):
-                raise EncodeError("type_codes", code, f"{self.supported_types()}: {model}", "1.11")
+        for code in self.type_codes:
+            if not isinstance(code, TypeCode):
+                raise EncodeError("type_codes", code, "members of TypeCode", "1.11")
+        for code in set(self.type_codes):
+            if not self.supports(code):
+                raise EncodeError("type_codes", f"{code:02X}", f"{self.supported_types()}: {model}", "1.11")
         if len(set(self.type_codes)) > 1 and not self.individually_configurable:
             raise EncodeError("type_codes", self.type_codes, f"one type for all channels: {model}", "2.15")
 

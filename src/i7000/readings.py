@@ -64,6 +64,7 @@ _TEXT_SENTINELS = {
 _LEGACY_SENTINELS = {"+9999": Status.OVER_RANGE, "-0000": Status.UNDER_RANGE}
 """Of old firmware (`Profile.legacy_sentinels`), in every data format. ``-0000.5`` is not one of them (E49)."""
 
+LEGACY_WIDTH = 5
 FIELD_WIDTHS = {DataFormat.ENGINEERING: 7, DataFormat.PERCENT: 7, DataFormat.HEX: 4}
 _TEXT_WIDTH = FIELD_WIDTHS[DataFormat.ENGINEERING]
 _TEXT_BLANKS = " " * _TEXT_WIDTH
@@ -72,6 +73,7 @@ _OUT_OF_RANGE_TEXTS = {
     DataFormat.ENGINEERING: {Status.OVER_RANGE: "+9999.9", Status.UNDER_RANGE: "-9999.9"},
     DataFormat.PERCENT: {Status.OVER_RANGE: "+999.99", Status.UNDER_RANGE: "-999.99"},
 }
+_LEGACY_TEXTS = {status: text for text, status in _LEGACY_SENTINELS.items()}
 _FORMS = {
     DataFormat.ENGINEERING: "sign, five digits and a point among them, or 7 blanks",
     DataFormat.PERCENT: "sign, three digits, point, two digits, or 7 blanks",
@@ -194,24 +196,27 @@ def decode_field(field: str, type_code: TypeCode, data_format: DataFormat, *, le
     return Reading(_from_part(float(field.replace(".", "")), 10_000, type_code), type_code.unit)
 
 
-def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat) -> str:
+def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:
     """Write one channel's field of a DCON report, to the nearest count.
 
+    Special: with `legacy` (`Profile.legacy_sentinels`) out of range is ``+9999`` and ``-0000`` in every format.
     Errors: `EncodeError` for a value that is not finite, of another unit, or beyond the span of the type (in hex:
-        beyond what its words hold, see `encode_word`).
-    Manual: 1.11; E48, E50.
+        beyond what its words hold, see `encode_word`), and for a value beside a status that has none.
+    Manual: 1.11; E48, E49, E50.
 
     >>> encode_field(Reading(15.0, Unit.MILLIVOLT), TypeCode.MV_15, DataFormat.ENGINEERING)
     '+15.000'
     """
+    _check(reading, type_code)
     if reading.status is Status.DISABLED:
         return " " * FIELD_WIDTHS[data_format]
+    if legacy and reading.status is not Status.OK:
+        return _LEGACY_TEXTS[reading.status]
     if data_format is DataFormat.HEX:
         return f"{encode_word(reading, type_code):04X}"
     if reading.status is not Status.OK:
-        _check_status(reading)
         return _OUT_OF_RANGE_TEXTS[data_format][reading.status]
-    value = _number(reading, type_code)
+    value = _number(reading)
     if data_format is DataFormat.ENGINEERING:
         low, high, decimals = type_code.minimum, type_code.maximum, type_code.decimals
     else:
@@ -291,9 +296,10 @@ def encode_word(reading: Reading, type_code: TypeCode) -> int:
     >>> f"{encode_word(Reading(-210.0, Unit.CELSIUS), TypeCode.J):04X}"
     'DCA2'
     """
+    _check(reading, type_code)
     if reading.status is not Status.OK:
         return _sentinel_word(reading, type_code, _hex_sentinels(type_code))
-    value = _number(reading, type_code)
+    value = _number(reading)
     if type_code.signed_hex:
         low, high = -type_code.full_scale, type_code.full_scale
         counts = round(value * (0x7FFF if value >= 0 else 0x8000) / type_code.full_scale)
@@ -334,10 +340,11 @@ def encode_engineering_word(reading: Reading, type_code: TypeCode) -> int:
     >>> encode_engineering_word(Reading(1372.0, Unit.CELSIUS), TypeCode.K)
     13720
     """
+    _check(reading, type_code)
     if reading.status is not Status.OK:
         return _sentinel_word(reading, type_code, _ENGINEERING_WORDS)
     scale: int = 10**type_code.modbus_decimals
-    counts = round(_number(reading, type_code) * scale)
+    counts = round(_number(reading) * scale)
     if not type_code.minimum * scale <= counts <= type_code.maximum * scale:
         raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
     return counts & 0xFFFF
@@ -353,7 +360,6 @@ def _signed(word: int) -> int:
 
 
 def _sentinel_word(reading: Reading, type_code: TypeCode, sentinels: dict[int, Status]) -> int:
-    _check_status(reading)
     for word, status in sentinels.items():
         if status is reading.status:
             return word
@@ -381,19 +387,22 @@ _HUGE = 1e9
 """Beyond every span, and small enough to be scaled."""
 
 
-def _number(reading: Reading, type_code: TypeCode) -> float:
-    """The value of a reading that is to be sent as type `type_code`, which it must fit."""
+def _check(reading: Reading, type_code: TypeCode) -> None:
+    """Refuse what is no reading of a channel of this type, whatever its value."""
+    if not isinstance(reading.status, Status):
+        raise EncodeError("status", reading.status, "a Status", "1.11")
+    if reading.unit is not type_code.unit:
+        raise EncodeError("unit", reading.unit, f"{type_code.unit}, the unit of type {type_code:02X}", "1.11")
+    if reading.status is not Status.OK and reading.value is not None:
+        raise EncodeError("value", reading.value, f"None with status {reading.status.value}", "1.11")
+
+
+def _number(reading: Reading) -> float:
+    """The value of a reading that is to be sent as a number."""
     value = reading.value
     if isinstance(value, bool) or not isinstance(value, int | float) or not -_HUGE < value < _HUGE:
         raise EncodeError("value", value, "a finite number, of a size that a module can measure", "1.11")
-    if reading.unit is not type_code.unit:
-        raise EncodeError("unit", reading.unit, f"{type_code.unit}, the unit of type {type_code:02X}", "1.11")
     return value
-
-
-def _check_status(reading: Reading) -> None:
-    if not isinstance(reading.status, Status):
-        raise EncodeError("status", reading.status, "a Status", "1.11")
 
 
 def _beyond(reading: Reading, type_code: TypeCode, low: float, high: float) -> EncodeError:

@@ -140,7 +140,8 @@ def test_mixed_types_are_announced_by_ff_where_they_are_possible() -> None:
         (dcon.CjcTemperature, (float("inf"),), "temperature"),
         (dcon.CjcTemperature, (31.25,), "temperature"),
         (dcon.CjcTemperature, (10000.0,), "temperature"),
-        (dcon.CjcTemperature, (31,), "temperature"),
+        (dcon.CjcTemperature, (True,), "temperature"),
+        (dcon.CjcTemperature, ("31.2",), "temperature"),
         (dcon.AnalogInputs, ((),), "values"),
         (dcon.AnalogInputs, (["+00.000"],), "values"),
         (dcon.AnalogInputs, (("+00.000", "4C53"),), "values"),
@@ -159,7 +160,7 @@ def test_a_message_that_has_no_wire_form_cannot_be_made(kind: Any, values: Any, 
 
 
 def test_a_flag_is_true_or_false() -> None:
-    with pytest.raises(EncodeError, match="enabled cannot be 1: 0 1"):
+    with pytest.raises(EncodeError, match=r"enabled cannot be 1: bool: 0 \(False\) 1 \(True\)"):
         dcon.SetCjcEnabled(0x01, enabled=1)  # type: ignore[arg-type]
 
 
@@ -176,7 +177,12 @@ def test_a_flag_is_true_or_false() -> None:
         (b"$01\n\r", Fault.CHARACTER, 3),
         (b"!01\r", Fault.LEADING, 0),
         (b"x012\r", Fault.LEADING, 0),
-        (b"$0a2\r", Fault.CHARACTER, 1),
+        (b"$0a2\r", Fault.CHARACTER, 2),
+        (b"$019+00a0\r", Fault.CHARACTER, 7),
+        (b"$01900100\r", Fault.NUMBER, 4),
+        (b"~01Oab!\r", Fault.CHARACTER, 6),
+        (b"~01\r", Fault.LENGTH, 3),
+        (b"#**\r", Fault.UNSUPPORTED, 1),
         (b"$012x\r", Fault.LENGTH, 4),
         (b"$01z\r", Fault.COMMAND, 3),
         (b"~01C2\r", Fault.VALUE, 4),
@@ -199,7 +205,7 @@ def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes
 
 
 def test_a_bad_checksum_is_told_with_the_right_one() -> None:
-    with pytest.raises(DecodeError, match=r"checksum in checksum at byte 4 of .*allowed: B7") as caught:
+    with pytest.raises(DecodeError, match=r"checksum at byte 4 of .*allowed: B7") as caught:
         dcon.decode_command(b"$012B6\r", evolve(I_7017, checksum=True))
 
     assert Fault.CHECKSUM is caught.value.fault
@@ -246,6 +252,12 @@ def test_a_negative_mask_has_no_channels() -> None:
         (dcon.ReadAnalogInputs(0x01), Profile(Model.M_7017Z, single_ended=True), 142),
         (dcon.ReadAnalogInputs(0x01), evolve(I_7017, data_format=DataFormat.HEX), 34),
         (dcon.ReadAnalogInput(0x01, 0), I_7017, 9),
+        (dcon.ReadAnalogInputs(0x01), Profile(Model.I_7018, firmware=Firmware("B1.4"), data_format=DataFormat.HEX), 42),
+        (
+            dcon.ReadAnalogInput(0x01, 0),
+            Profile(Model.I_7018, firmware=Firmware("B1.4"), data_format=DataFormat.HEX),
+            7,
+        ),
         (dcon.ReadSynchronizedData(0x01), Profile(Model.M_7019Z, checksum=True), 77),
         (dcon.ReadChannelMask(0x01), Profile(Model.M_7017Z, single_ended=True), 10),
         (dcon.ReadModuleName(0x01), I_7017, 254),
@@ -307,6 +319,47 @@ def test_readings_need_the_types_of_all_channels(profile: Profile) -> None:
         dcon.readings(dcon.AnalogInputs(("+00.000",) * 8), profile)
 
 
+def test_the_fields_of_old_firmware_are_written_as_they_are_read() -> None:
+    for data_format in DataFormat:
+        old = Profile(Model.I_7018, firmware=Firmware("B1.4"), type_codes=(TypeCode.K,) * 8, data_format=data_format)
+        values = [Reading(None, Unit.CELSIUS, status) for status in (Status.OVER_RANGE, Status.UNDER_RANGE)] * 4
+
+        written = dcon.fields(values, old)
+
+        assert written == ("+9999", "-0000") * 4
+        assert tuple(values) == dcon.readings(dcon.AnalogInputs(written), old)
+        assert dcon.field(values[1], 7, old) == "-0000"
+
+
+def test_the_field_of_one_channel_is_what_its_reading_tells() -> None:
+    assert dcon.field(Reading(1.5, Unit.VOLT), 7, I_7017) == "+01.500"
+    for channel in (8, -1):
+        with pytest.raises(EncodeError, match="channel cannot be"):
+            dcon.field(Reading(1.5, Unit.VOLT), channel, I_7017)
+
+
+@pytest.mark.parametrize(
+    ("reading", "field"),
+    [
+        (Reading(5.0, Unit.VOLT, Status.DISABLED), "value"),
+        (Reading(5.0, Unit.VOLT, Status.OVER_RANGE), "value"),
+        (Reading(None, Unit.CELSIUS, Status.OVER_RANGE), "unit"),
+        (Reading(None, Unit.VOLT), "value"),
+    ],
+)
+def test_a_reading_that_contradicts_itself_or_its_type_is_refused(reading: Reading, field: str) -> None:
+    with pytest.raises(EncodeError) as caught:
+        dcon.field(reading, 0, I_7017)
+
+    assert field == caught.value.field
+
+
+def test_codes_given_as_numbers_are_taken_like_their_members() -> None:
+    given = configuration(LineSettings(6), ReportSettings(0))
+
+    assert dcon.encode(configuration(), I_7017) == dcon.encode(given, I_7017)
+
+
 @pytest.mark.parametrize("channel", [8, -1])
 def test_a_reading_needs_a_channel_that_is_there(channel: int) -> None:
     with pytest.raises(DecodeError, match="type_codes"):
@@ -346,10 +399,25 @@ def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, co
     assert commands == [type(command) for command in dcon.candidates(frame)]
 
 
-@pytest.mark.parametrize("frame", [b"", b"$01z\r", b"$012B6", b"!01\r", b"x" * 300])
-def test_what_no_module_understands_has_no_candidates(frame: bytes) -> None:
-    with pytest.raises(DecodeError):
+@pytest.mark.parametrize(
+    ("frame", "fault", "offset"),
+    [
+        (b"", Fault.LENGTH, 0),
+        (b"$01z\r", Fault.COMMAND, 3),
+        (b"$012B6", Fault.TERMINATOR, 6),
+        (b"!01\r", Fault.LEADING, 0),
+        (b"x" * 300, Fault.LENGTH, 256),
+        (b"$01A3\r", Fault.VALUE, 4),
+        (b"$017C0X30\r", Fault.CHARACTER, 6),
+    ],
+)
+def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
+    frame: bytes, fault: Fault, offset: int
+) -> None:
+    with pytest.raises(DecodeError) as caught:
         dcon.candidates(frame)
+
+    assert (fault, offset) == (caught.value.fault, caught.value.offset)
 
 
 @pytest.mark.parametrize("frame", [b"", b"$012\r", b"!01\xff\r", b"!\r", b">zz\r"])

@@ -72,7 +72,7 @@ from i7000.dcon.watchdog import (
     SetHostWatchdogTimeout,
 )
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.models import Firmware, Model, series
+from i7000.models import AVAILABILITY, Firmware, Model, series
 from i7000.profile import Profile
 from i7000.readings import Reading, decode_field, decode_fields, encode_field
 from i7000.settings import DataFormat
@@ -84,6 +84,7 @@ __all__ = [
     "decode_command",
     "decode_response",
     "encode",
+    "field",
     "fields",
     "longest_response",
     "pause_after",
@@ -145,9 +146,13 @@ COMMANDS: tuple[type[AnyCommand], ...] = (
 R = TypeVar("R", bound=Response)
 
 
+_LETTERED = "$~@"
+"""The leading characters of the commands that are told apart by what follows the address."""
+
+
 def _key(text: str) -> str:
     """What commands are sorted by: the leading character, and the one after the address where that tells them apart."""
-    return text[0] + text[3:4] if text[0] in "$~@" else text[0]
+    return text[0] + text[3:4] if text[0] in _LETTERED else text[0]
 
 
 _BY_KEY: dict[str, tuple[type[AnyCommand], ...]] = {
@@ -172,7 +177,7 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
     else:
         if message.section in profile.refused:
             raise EncodeError(
-                "model", profile.model.value, profile.refused[message.section], message.section,
+                "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
                 f"{profile.name} has no {message.title}",
             )  # fmt: skip
         message.check(profile)
@@ -201,17 +206,20 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
             return message
         refused = command
     if refused is not None:
-        allowed = profile.refused[refused.section]
-        raise DecodeError(Fault.UNSUPPORTED, frame, 3, field=refused.title, allowed=allowed, section=refused.section)
-    faults = [
-        command.layout.explain(body, profile, frame, command.section)
-        for command in known
-        if command.section not in profile.refused
-    ]
-    if not faults:
+        at = 3 if body[0] in _LETTERED else 1
+        allowed = f"{refused.title} is there on {AVAILABILITY[refused.section].scope}"
+        raise DecodeError(Fault.UNSUPPORTED, frame, at, allowed=allowed, section=refused.section)
+    if not known or (body[0] in _LETTERED and len(body) <= 3 and body[1:2] != "*"):
         fault = Fault.COMMAND if len(body) > 3 else Fault.LENGTH
         raise DecodeError(fault, frame, min(len(body), 3), allowed="a command of chapter 2", section="2")
-    raise max(faults, key=lambda fault: (fault.fault is not Fault.LENGTH, fault.offset))
+    there = [command for command in known if command.section not in profile.refused] or known
+    raise _deepest(command.layout.explain(body, profile, frame, command.section) for command in there)
+
+
+def _deepest(faults: Iterable[DecodeError]) -> DecodeError:
+    """The fault of the command that a frame comes nearest to: it fits the furthest, and has the right length."""
+    misfits = (Fault.COMMAND, Fault.UNSUPPORTED)
+    return max(faults, key=lambda it: (it.fault not in misfits, it.fault is not Fault.LENGTH, it.offset))
 
 
 def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | Refused:
@@ -276,14 +284,14 @@ def candidates(frame: bytes) -> tuple[AnyCommand, ...]:
     (ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132))
     """
     found: dict[AnyCommand, None] = {}
-    error = None
-    for profile, checksum in product(_profiles(), (False, True)):
+    faults = []
+    for checksum, profile in product((False, True), _profiles()):
         try:
             found[decode_command(frame, evolve(profile, checksum=checksum))] = None
         except DecodeError as fault:
-            error = error or fault
-    if error is not None and not found:
-        raise error
+            faults += [] if checksum else [fault]
+    if not found:
+        raise _deepest(faults)
     return tuple(sorted(found, key=lambda command: COMMANDS.index(type(command))))
 
 
@@ -298,12 +306,11 @@ def response_candidates(frame: bytes) -> tuple[Response, ...]:
     (Refused(address=0x01),)
     """
     found: dict[Response, None] = {}
-    error = None
+    unseal(frame, checksum=False, leads=RESPONSE_LEADS)
     for checksum in (False, True):
         try:
             body = unseal(frame, checksum=checksum, leads=RESPONSE_LEADS).decode("ascii")
-        except DecodeError as fault:
-            error = error or fault
+        except DecodeError:
             continue
         for kind, profile in product(_RESPONSES, _response_profiles()):
             try:
@@ -311,7 +318,7 @@ def response_candidates(frame: bytes) -> tuple[Response, ...]:
             except (KeyError, DecodeError):
                 continue
     if not found:
-        raise error or DecodeError(Fault.COMMAND, frame, 1, section="2")
+        raise DecodeError(Fault.COMMAND, frame, 1, allowed="a response of chapter 2", section="2")
     return tuple(found)
 
 
@@ -370,9 +377,21 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
     if len(values) != len(profile.type_codes):
         raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
     return tuple(
-        encode_field(value, type_code, profile.data_format)
+        encode_field(value, type_code, profile.data_format, legacy=profile.legacy_sentinels)
         for value, type_code in zip(values, profile.type_codes, strict=True)
     )
+
+
+def field(value: Reading, channel: int, profile: Profile) -> str:
+    """Write the field of one channel: what `reading` tells, the other way round.
+
+    Errors: `EncodeError` for a reading that the channel cannot have, and for a channel whose type is not known.
+    Manual: 1.11, A.5.
+    """
+    types = profile.type_codes[channel : channel + 1]
+    if not types:
+        raise EncodeError("channel", channel, f"0..{len(profile.type_codes) - 1}, those of a known type", "1.11")
+    return encode_field(value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
 
 
 def _unknown_types(data: str, profile: Profile) -> DecodeError:

@@ -59,12 +59,12 @@ class SetConfiguration(Command[Acknowledged]):
         mixed = self.type_code == MIXED and profile.individually_configurable
         if model.type_by_configuration and not mixed:
             check_type_code(self, self.type_code, profile)
-        if not isinstance(line.baud_rate, BaudRate):
+        if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
             raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
         if line.character_format is not CharacterFormat.N81 and not profile.runs(model.character_formats_from):
             allowed = f"N81 with firmware before {model.character_formats_from}: {model.value}"
             raise EncodeError("character_format", line.character_format.name, allowed, "1.11")
-        if not isinstance(report.data_format, DataFormat):
+        if not isinstance(DataFormat.of(report.data_format), DataFormat):
             raise EncodeError("data_format", report.data_format, "0..2", "1.11")
         if report.reserved:
             raise EncodeError("reserved", report.reserved, "0", "1.11")

@@ -63,7 +63,7 @@ def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
     if _CHECKSUMS[sum(body) & 0xFF] != frame[-3:-1] or not body:
         if len(frame) <= len("!FF"):
             raise DecodeError(
-                Fault.LENGTH, frame, len(frame) - 1, allowed="a leading character and a checksum at least"
+                Fault.LENGTH, frame, len(frame) - 1, allowed="a leading character and a checksum at least", section="2"
             )
         raise DecodeError(
             Fault.CHECKSUM, frame, len(body), field="checksum", allowed=f"{sum(body) & 0xFF:02X}", section="2"
@@ -98,6 +98,7 @@ def split(buffer: bytes, *, checksum: bool = False) -> tuple[tuple[bytes | Noise
     >>> split(b"\xff!01\r>+02")
     ((Noise(wire=b'\xff', fault=<Fault.LEADING: 'leading'>), b'!01\r'), b'>+02')
     """
+    buffer = bytes(buffer)
     *lines, rest = buffer.split(b"\r")
     found: list[bytes | Noise] = []
     line_at = noise_at = 0

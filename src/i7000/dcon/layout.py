@@ -16,11 +16,13 @@ from attrs import fields, frozen
 from i7000.dcon.frame import LONGEST_FRAME
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.profile import Profile
-from i7000.readings import FIELD_WIDTHS, are_fields, split_fields
+from i7000.readings import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings
 from i7000.type_codes import TypeCode
 
 # --- parts ------------------------------------------------------------------------------------------------------------
+
+_DIGITS = "0123456789ABCDEF"
 
 
 @frozen(eq=False)
@@ -47,11 +49,12 @@ class Part:
     """Whether `parse` takes the profile after the text."""
     longest: Callable[[Profile], int] | None = None
     """The most characters of a part that takes all that are left."""
+    characters: str = _DIGITS
+    """What its characters can be, where a wrong one is a fault of its own."""
 
 
 _PAIRS = {f"{byte:02X}": byte for byte in range(256)}
 _TYPE_CODES = {text: TypeCode.of(byte) for text, byte in _PAIRS.items()}
-_DIGITS = "0123456789ABCDEF"
 
 
 def _parse_hex(text: str) -> int:
@@ -78,7 +81,7 @@ def _type_code(notation: str) -> Part:
 def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings]) -> Part:
     """Two hex digits that are a byte of settings."""
     return Part(
-        notation, f"a {kind.__name__}", "%02X", "{}.byte",
+        notation, f"{kind.__name__}", "%02X", "{}.byte",
         lambda value: isinstance(value, kind), lambda text: kind.from_byte(_PAIRS[text]),
     )  # fmt: skip
 
@@ -86,9 +89,11 @@ def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings]) ->
 def _choice(notation: str, kind: type[bool | CjcUpdate | Protocol]) -> Part:
     """One digit, of the few that have a meaning."""
     values = {f"{value:d}": value for value in (kind if issubclass(kind, CjcUpdate | Protocol) else (False, True))}
+    allowed = " ".join(f"{digit} ({value!s})" if kind is bool else digit for digit, value in values.items())
     return Part(
-        notation, " ".join(values), "%d", "{}", lambda value: isinstance(value, kind), values.__getitem__, Fault.VALUE
-    )
+        notation, f"{kind.__name__}: {allowed}", "%d", "{}",
+        lambda value: isinstance(value, kind), values.__getitem__, Fault.VALUE,
+    )  # fmt: skip
 
 
 def _channel(notation: str) -> Part:
@@ -117,7 +122,7 @@ def _offset(notation: str) -> Part:
 
     return Part(
         notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
-        lambda value: _is_int(value, -0xFFFF, 0xFFFF), parse, width=5,
+        lambda value: _is_int(value, -0xFFFF, 0xFFFF), parse, width=5, characters="+-" + _DIGITS,
     )  # fmt: skip
 
 
@@ -129,8 +134,9 @@ def _temperature(notation: str) -> Part:
             raise KeyError(text)
         return float(text)
 
-    def accepts(value: object) -> bool:
-        return isinstance(value, float) and -9999.9 <= value <= 9999.9 and round(value, 1) == value
+    def accepts(value: Any) -> bool:  # noqa: ANN401
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        return number and -9999.9 <= value <= 9999.9 and round(value, 1) == value
 
     return Part(
         notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{}", accepts, parse, Fault.NUMBER, 7
@@ -158,8 +164,13 @@ def _text(notation: str, longest: int = _LONGEST_TEXT) -> Part:
 
     return Part(
         notation, f"1 to {longest} characters, printable ASCII without % # $ ~ @ ! > ?", "%b", "{}.encode()",
-        accepts, parse, width="rest", longest=lambda _: longest,
+        accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(_NAME_CHARACTERS)),
     )  # fmt: skip
+
+
+def _longest_field(data_format: DataFormat, profile: Profile) -> int:
+    width = FIELD_WIDTHS[data_format]
+    return max(width, LEGACY_WIDTH) if profile.legacy_sentinels else width
 
 
 def _values(notation: str, data_format: DataFormat | None = None) -> Part:
@@ -178,7 +189,7 @@ def _values(notation: str, data_format: DataFormat | None = None) -> Part:
     return Part(
         notation, "a tuple of channel fields, each as sent", "%b", "''.join({}).encode()",
         accepts, parse, Fault.NUMBER, "rest", contextual=True,
-        longest=lambda profile: profile.channels * FIELD_WIDTHS[form(profile)],
+        longest=lambda profile: profile.channels * _longest_field(form(profile), profile),
     )  # fmt: skip
 
 
@@ -194,7 +205,7 @@ def _value(notation: str) -> Part:
     return Part(
         notation, "a channel field, as sent", "%b", "{}.encode()",
         accepts, parse, Fault.NUMBER, "rest", contextual=True,
-        longest=lambda profile: FIELD_WIDTHS[profile.data_format],
+        longest=lambda profile: _longest_field(profile.data_format, profile),
     )  # fmt: skip
 
 
@@ -329,7 +340,11 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
     try:
         part.parse(text, profile) if part.contextual else part.parse(text)
     except KeyError:
-        return DecodeError(part.fault, text.encode(), allowed=part.allowed)
+        if part.fault is not Fault.CHARACTER:
+            return DecodeError(part.fault, text.encode(), allowed=part.allowed)
+        at = next(at for at, character in enumerate(text) if character not in part.characters)
+        allowed = "0-9 A-F" if part.characters.endswith(_DIGITS) else part.allowed
+        return DecodeError(part.fault, text.encode(), at, allowed=allowed)
     except DecodeError as error:
         return error
     return None

@@ -30,7 +30,7 @@ _LAST_ADDRESS = 247
 def check_line(line: LineSettings, profile: Profile, section: str) -> None:
     """Refuse a line that the module cannot have."""
     formats_from = profile.model.character_formats_from
-    if not isinstance(line.baud_rate, BaudRate):
+    if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
         raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
     if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
         allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
