@@ -44,7 +44,7 @@ class CjcOffset(Response):
 
     Wire: ``46 2B offset:2``
     Unit: counts of 0.01 degC for the module; of 0.1 degC for a channel, two's complement in the low byte (E62).
-    Manual: 3.3.12; E62, E63.
+    Manual: 3.3.12; E62, E63, E104.
     """
 
     pdu = "46 2B offset:2"
@@ -61,7 +61,7 @@ class ReadCjcOffset(Request[CjcOffset]):
     Wire: ``46 2B channel`` -> ``46 2B offset:2``
     Shape: `channel` 00h is the module, 80h channel 0, 81h channel 1 and so on.
     Errors: `EncodeError` for a channel that the module does not have.
-    Manual: 3.3.12; E62, E63.
+    Manual: 3.3.12; E62, E63, E104.
     """
 
     pdu = "46 2B channel"
@@ -79,7 +79,7 @@ class CjcOffsetResult(SettingResult):
     """Tell whether an offset was set.
 
     Wire: ``46 2C result``
-    Manual: 3.3.13; E62, E63, E85.
+    Manual: 3.3.13; E62, E63, E85, E104.
     """
 
     pdu = "46 2C result"
@@ -96,7 +96,7 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     Unit: counts of 0.01 degC for the module; of 0.1 degC for a channel, two's complement in the low byte (E62).
     Range: -1000h..1000h for the module; 00h..FFh for a channel.
     Errors: `EncodeError` for a channel that the module does not have, and beyond the range.
-    Manual: 3.3.13; E62, E63, E85.
+    Manual: 3.3.13; E62, E63, E85, E104.
     """
 
     pdu = "46 2C channel offset:2"
