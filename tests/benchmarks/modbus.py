@@ -106,7 +106,9 @@ def pymodbus() -> tuple[Task, Task]:
 
 def modbus_tk() -> tuple[Task, Task]:
     """What the master of modbus-tk does to build a request and to read its response, without the line between."""
-    query = importlib.import_module("modbus_tk.modbus_rtu").RtuQuery()
+    rtu = importlib.import_module("modbus_tk.modbus_rtu")
+    query = rtu.RtuQuery()
+    query.build_request(REQUEST_FRAME[1:-2], 1)
 
     def decode() -> tuple[int, ...]:
         pdu = query.parse_response(FRAME)
@@ -116,7 +118,7 @@ def modbus_tk() -> tuple[Task, Task]:
             raise ValueError(pdu)
         return struct.unpack(">" + 10 * "H", data)
 
-    return lambda: query.build_request(struct.pack(">BHH", 3, 0, 10), 1), decode
+    return lambda: rtu.RtuQuery().build_request(struct.pack(">BHH", 3, 0, 10), 1), decode
 
 
 def umodbus() -> tuple[Task, Task]:
@@ -172,9 +174,9 @@ def codec_results() -> Iterator[Result]:
     yield at_least("request from integers -> RTU frame, of the floor", times["encode"], times["floor encode"], 0.6)
     yield at_least("response of 10 registers, of the floor's tuple", times["decode"], times["floor decode"], 0.9)
     for peer in peers:
-        name, task = peer.rsplit(" ", 1)
-        what = "request -> RTU frame" if task == "encode" else "response of 10 registers"
-        yield at_least(f"{what}, of {name}", times[task], times[peer], 1.2)
+        name, direction = peer.rsplit(" ", 1)
+        what = "request -> RTU frame" if direction == "encode" else "response of 10 registers"
+        yield at_least(f"{what}, of {name}", times[direction], times[peer], 1.2)
     yield from crc_results()
 
 

@@ -5,7 +5,6 @@ Laws: `seal` and `unseal` are each other's inverse.
 
 import struct
 from collections.abc import Callable
-from functools import cache
 
 from i7000.errors import DecodeError, Fault
 
@@ -35,9 +34,15 @@ _TWO: list[int] = []
 """What two bytes do to it; made when first needed."""
 
 
-@cache
-def _words(count: int) -> Callable[[bytes, int], tuple[int, ...]]:
-    return struct.Struct(f"<{count}H").unpack_from
+class _Words(dict[int, Callable[[bytes, int], tuple[int, ...]]]):
+    """How so many words are read; made when first needed."""
+
+    def __missing__(self, count: int) -> Callable[[bytes, int], tuple[int, ...]]:
+        return self.setdefault(count, struct.Struct(f"<{count}H").unpack_from)
+
+
+_WORDS = _Words()
+_PACK = struct.Struct("<H").pack
 
 
 def crc16(data: bytes) -> int:
@@ -54,7 +59,7 @@ def crc16(data: bytes) -> int:
     odd = length & 1
     if odd:
         crc = crc >> 8 ^ _ONE[(crc ^ data[0]) & 0xFF]
-    for word in _words(length >> 1)(data, odd):
+    for word in _WORDS[length >> 1](data, odd):
         crc = _TWO[crc ^ word]
     return crc
 
@@ -65,7 +70,7 @@ def seal(body: bytes) -> bytes:
     >>> seal(bytes.fromhex("010400000008")).hex()
     '010400000008f1cc'
     """
-    return body + crc16(body).to_bytes(2, "little")
+    return body + _PACK(crc16(body))
 
 
 def unseal(frame: bytes) -> bytes:
