@@ -164,7 +164,7 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
     ExceptionResponse(address=0x01, function=4, exception_code=2)
     """
     body = unseal(frame)
-    if len(body) < len("afe"):
+    if len(body) < _SHORTEST_RESPONSE:
         raise DecodeError(Fault.LENGTH, frame, len(body), allowed="5 bytes at least", section="3")
     if body[0] != request.address or body[0] == BROADCAST:
         allowed = f"{request.address:02X}" if is_answered(request) else "no response to a broadcast"
@@ -176,7 +176,7 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
             raise DecodeError(Fault.FUNCTION, frame, 1, field="function", allowed=allowed, section=request.section)
         exception: ExceptionResponse = _decode(ExceptionResponse, body, frame, profile)
         return exception
-    if request.sub_function is not None and body[2] != request.sub_function:
+    if function == MODULE_SETTINGS and body[2] != request.sub_function:
         raise _sub_function_error(frame, f"{request.sub_function:02X}")
     if request.broadcast:
         _check_echo(request, body, frame)
@@ -185,6 +185,8 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
 
 
 _LAST_ADDRESS = 247
+_SHORTEST_RESPONSE = 3
+"""Bytes of address and PDU: an exception."""
 
 
 def _address_error(frame: bytes) -> DecodeError:
