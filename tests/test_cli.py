@@ -1,10 +1,8 @@
 """The command line, in process as a user calls it; once as a process of its own."""
 
 import io
-import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,40 +17,14 @@ from i7000.cli.log import pieces
 from i7000.cli.message import encode, make
 from i7000.cli.records import line_records
 from tests.spec.lint import Record, rows
+from tests.terminal import Run
 from tests.vectors import dcon_vectors, message_of, profile_of
 
+pytestmark = pytest.mark.usefixtures("plain")
+
 SESSION = Path(__file__).parent / "data" / "session.log"
+EXCHANGES = SESSION.with_name("exchanges.log")
 ENGINEERING = ">" + "+025.12" * 7 + "+9999.9"
-
-
-@pytest.fixture(autouse=True)
-def _plain(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("FORCE_COLOR", "NO_COLOR", "TTY_COMPATIBLE", "COLUMNS"):
-        monkeypatch.delenv(name, raising=False)
-
-
-class Told:
-    """What a call told."""
-
-    def __init__(self, code: int, out: str, err: str) -> None:
-        self.code, self.out, self.err = code, out, err
-
-    @property
-    def records(self) -> list[Record]:
-        return [json.loads(line) for line in self.out.splitlines()]
-
-
-Run = Callable[..., Told]
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    def call(*arguments: str, stdin: bytes = b"") -> Told:
-        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin)))
-        code = main(arguments)
-        return Told(code, *capsys.readouterr())
-
-    return call
 
 
 def told(*frames: str, **known: Any) -> list[Record]:
@@ -421,6 +393,14 @@ def test_every_line_of_a_log_is_printed(run: Run) -> None:
     assert result.code == 1
 
 
+def test_a_log_of_good_exchanges_is_understood(run: Run) -> None:
+    result = run("decode", "--file", str(EXCHANGES), "--model", "M-7019R", "--type", "K", "--json")
+
+    assert [record["text"] for record in result.records] == EXCHANGES.read_text(encoding="utf-8").splitlines()
+    assert result.err == ""
+    assert result.code == 0
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -770,7 +750,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode $012 --type Q", "'Q' is no type"),
         ("decode $012 --type 20", "type 20 of '20' is not defined: 00..1C"),
         ("decode $012 --type MIXED,K", "type FF of 'MIXED,K' is not defined"),
-        ("decode $012 --type K --model I-7017", "type_codes cannot be <TypeCode.K: 15>: "),
+        ("decode $012 --type K --model I-7017", "type_codes cannot be '0F': "),
         ("decode $012 --type K,K,K", "of them, or none"),
         ("decode $012 --type K,J,K --model I-7019R", "8 of them"),
         ("decode $012 --single-ended --model I-7018", "single_ended cannot be True"),

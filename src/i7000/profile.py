@@ -111,9 +111,9 @@ class Profile:
         if self.firmware is not None and not isinstance(self.firmware, Firmware):
             raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
         if self.single_ended and self.model not in AVAILABILITY["2.43"].gates:
-            raise EncodeError("single_ended", True, f"False: {model} has no such mode, 7017Z only", "2.43")
+            raise EncodeError("single_ended", True, f"7017Z only, {model} has no such mode", "2.43")
         if self.modbus_data_format and Protocol.MODBUS_RTU not in self.model.protocols:
-            raise EncodeError("modbus_data_format", self.modbus_data_format, f"HEX: {model} has no Modbus", "1.12")
+            raise EncodeError("modbus_data_format", self.modbus_data_format, f"M-7000 series only, {model} has no Modbus", "1.12")
 
     def _check_types(self) -> None:
         model = self.model.value

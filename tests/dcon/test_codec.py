@@ -81,7 +81,7 @@ def configuration(
         (
             configuration(None, ReportSettings(fast_mode=True)),
             I_7017,
-            "fast_mode cannot be True: False: I-7017 has none",
+            "fast_mode cannot be True: I-7017 has no fast mode",
         ),
         (
             configuration(None, ReportSettings(filter=Filter.REJECT_50_HZ)),

@@ -14,6 +14,7 @@ from i7000.cli.records import Record, empty_record, message_fields
 from i7000.cli.registers import Cell, cells
 from i7000.cli.rtu import Listener, Meaning, profiles
 from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
+from i7000.models import AVAILABILITY
 
 __all__ = ["line_records", "meaning_record", "request_record"]
 
@@ -124,7 +125,7 @@ def _note(meaning: Meaning, known: Known, section: str, *, analog: bool) -> str 
     """What a reader has to know about a meaning."""
     profile = meaning.profiles[0]
     if known.model and section in profile.refused:
-        return f"{profile.name} has no {meaning.message.title} by Modbus: {profile.refused[section]}"
+        return f"{profile.name} has no {meaning.message.title} by Modbus: {AVAILABILITY[section].scope}"
     if analog and known.modbus_data_format is None:
         return "the Modbus data format is not known, read as hex: --modbus-format tells"
     return None
@@ -150,9 +151,7 @@ def _explain(message: modbus.Message, request: modbus.Request[Any] | None, name:
     if name == "offset":
         return _offset(getattr(request or message, "channel", None), value)
     if name == "channel" and message.pdu.startswith(("46 2B", "46 2C")):
-        return (
-            "the module" if not value else f"{value:02X}, channel {value - 0x80}" if value >= 0x80 else f"{value:02X}"
-        )
+        return _channel(value)
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, Enum) and name not in _WORDS:

@@ -69,7 +69,7 @@ class SetConfiguration(Command[Acknowledged]):
         if report.reserved:
             raise EncodeError("reserved", report.reserved, "0", "1.11")
         if report.fast_mode and not model.fast_mode:
-            raise EncodeError("fast_mode", True, f"False: {model.value} has none", "1.11")
+            raise EncodeError("fast_mode", True, f"{model.value} has no fast mode", "1.11")
         if report.filter is not Filter.REJECT_60_HZ and not profile.runs(model.filter_from):
             allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {model.filter_from}: {model.value}"
             raise EncodeError("filter", report.filter.name, allowed, "1.11")
