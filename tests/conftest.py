@@ -1,8 +1,12 @@
-"""How hard Hypothesis searches: `dev`, `ci` where ``CI`` is set, ``--hypothesis-profile=fuzz`` for hours."""
+"""How hard Hypothesis searches: `dev`, `ci` where ``CI`` is set, ``--hypothesis-profile=fuzz`` for hours; fixtures."""
 
 import os
 
 from hypothesis import HealthCheck, settings
+
+from tests.terminal import plain, run
+
+__all__ = ["plain", "run"]
 
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, print_blob=True, database=None)

@@ -55,18 +55,19 @@ def hex_pieces(lines: Iterable[bytes]) -> Iterator[Line]:
 
 
 def _best(text: str) -> _Bytes | None:
-    """Choose the bytes that hold a good frame; or else the most, where they are enough or end the line."""
+    """Choose the bytes that are good frames, or hold one; or else the most, where they are enough or end the line."""
     end = len(text.rstrip(_CLOSING))
     found = [one for one in (*_runs(text), *_literals(text)) if len(one) >= modbus.SHORTEST_FRAME or one[-1][2] >= end]
-    return max(found, key=lambda one: (_is_good(_wire(one)), len(one)), default=None)
+    return max(found, key=lambda one: (*_goodness(_wire(one)), len(one)), default=None)
 
 
 def _wire(found: _Bytes) -> bytes:
     return bytes(value for value, _, _ in found)
 
 
-def _is_good(wire: bytes) -> bool:
-    return any(map(_is_frame, _frames(wire)))
+def _goodness(wire: bytes) -> tuple[bool, bool]:
+    good = [_is_frame(frame) for frame in _frames(wire)]
+    return all(good), any(good)
 
 
 def _is_frame(wire: bytes) -> bool:

@@ -28,7 +28,7 @@ _ANOTHER = (Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION)
 def profiles(known: Known) -> tuple[Profile, ...]:
     """Every profile that what is known fits; of all models that speak Modbus if none is known, and without types then.
 
-    Errors: `UsageError` for a model that does not speak it, or that is not as it was told.
+    Errors: `UsageError` for a model that does not speak it.
     """
     if known.model and known.model not in MODELS:
         raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
@@ -41,8 +41,6 @@ def profiles(known: Known) -> tuple[Profile, ...]:
                 continue
             data_format = known.modbus_data_format or ModbusDataFormat.HEX
             found.append(evolve(profile, modbus_data_format=data_format))
-    if not found:
-        raise UsageError("no model that speaks Modbus is like that")
     return tuple(found)
 
 

@@ -125,7 +125,9 @@ def _registers(registers: list[Record]) -> Iterator[Text]:
         first, *others = group
         number = first["number"] + (f"..{others[-1]['number']}" if others else "")
         channel = "" if others or first["channel"] is None else f" {first['channel']}"
-        yield _row(number, "  ".join(filter(None, ((name or "") + channel, text))))
+        line = _row(number, "  ".join(filter(None, ((name or "") + channel, text))))
+        line.rstrip()
+        yield line
 
 
 def _in_range(register: Record) -> tuple[str | None, str | None, int | None]:

@@ -1,0 +1,45 @@
+"""The command line as a user calls it, in process."""
+
+import io
+import json
+from collections.abc import Callable
+
+import pytest
+
+from i7000.cli import main
+from tests.spec.lint import Record
+
+__all__ = ["Run", "Told", "plain", "run"]
+
+
+@pytest.fixture
+def plain(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No wishes for colours or widths."""
+    for name in ("FORCE_COLOR", "NO_COLOR", "TTY_COMPATIBLE", "COLUMNS"):
+        monkeypatch.delenv(name, raising=False)
+
+
+class Told:
+    """What a call told."""
+
+    def __init__(self, code: int, out: str, err: str) -> None:
+        self.code, self.out, self.err = code, out, err
+
+    @property
+    def records(self) -> list[Record]:
+        return [json.loads(line) for line in self.out.splitlines()]
+
+
+Run = Callable[..., Told]
+
+
+@pytest.fixture
+def run(plain: None, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:  # noqa: ARG001
+    """Call the command line with arguments, and what stands on standard input."""
+
+    def call(*arguments: str, stdin: bytes = b"") -> Told:
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin)))
+        code = main(arguments)
+        return Told(code, *capsys.readouterr())
+
+    return call
