@@ -333,6 +333,10 @@ def test_nothing_answers_a_broadcast(address: int) -> None:
     assert Fault.ADDRESS is caught.value.fault
 
 
+def test_the_codes_of_exceptions_are_those_of_the_modbus_specification() -> None:
+    assert list(modbus.ExceptionCode) == [0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0A, 0x0B]
+
+
 @pytest.mark.parametrize("code", [*modbus.ExceptionCode, 0x00, 0x07, 0xFF])
 @pytest.mark.parametrize("request_", [modbus.ReadInputRegisters(1, 0, 8), modbus.ReadCjcUpdate(1)], ids=["04", "46"])
 def test_any_request_can_be_answered_with_any_exception(request_: Any, code: int) -> None:

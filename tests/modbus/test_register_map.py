@@ -296,7 +296,7 @@ def test_the_coil_big_endian_says_which_word_of_32_bits_is_first() -> None:
         (M_7017, "response_delay", 10**400, "a number, or what stands for it"),
         (M_7017, "response_delay", Filter.REJECT_50_HZ, "a number, or what stands for it"),
         (M_7017, "response_delay", LineSettings(), "a number, or what stands for it"),
-        (M_7017, "response_delay", (1, 2), r"response_delay cannot be \(1, 2\): 1 value\(s\)"),
+        (M_7017, "response_delay", (1, 2), r"response_delay cannot be \(1, 2\): 1 value\(s\), manual 3\.4"),
         (M_7017, "response_delay", (), r"1 value\(s\)"),
         (M_7018, "cjc_offset", (0.0,) * 7, r"8 value\(s\)"),
         (M_7018, "cjc_offset", (12.8,) * 8, r"cjc_offset cannot be 12\.8: -12\.8\.\.12\.7 degC in steps of 0\.1"),

@@ -121,6 +121,7 @@ MASK_8, MASK_16, MASK_24 = sealed("01462501"), sealed("0146250102"), sealed("014
 END = "ff" * 9
 """Bytes that begin no frame, enough of them to end one that only seems to have begun."""
 MANY_COILS = sealed("010f000007b0f6" + "ff" * 246)
+LONGEST = sealed("0101fb" + "00" * 251)
 MANY_WORDS = sealed("0103fa" + "1234" * 125)
 
 
@@ -131,6 +132,9 @@ MANY_WORDS = sealed("0103fa" + "1234" * 125)
         ("01", Side.BOTH, [], "01"),
         ("0146", Side.BOTH, [], "0146"),
         ("0184", Side.BOTH, [], "0184"),
+        ("01ff03", Side.BOTH, ["function 01ff"], "03"),
+        ("014603", Side.BOTH, ["sub_function 01"], "4603"),
+        (LONGEST, Side.RESPONSES, [LONGEST], ""),
         (READ + ANSWER + READ + REFUSED, Side.BOTH, [READ, ANSWER, READ, REFUSED], ""),
         (ANSWER + REFUSED, Side.RESPONSES, [ANSWER, REFUSED], ""),
         (REFUSED + END, Side.REQUESTS, [f"function {REFUSED}{END}"], ""),
