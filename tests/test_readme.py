@@ -1,13 +1,16 @@
 """What the README shows is what happens."""
 
 import re
+import shlex
 from pathlib import Path
 
 import pytest
 
 from i7000 import Fault
+from tests.terminal import Run
 
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
@@ -34,6 +37,28 @@ def test_there_is_one_command_to_see_it_work_and_one_to_run_the_tests() -> None:
         assert block.count("\n") == 1
 
 
+def test_the_first_command_understands_all(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    (arguments,) = re.findall(r"bin/i7000 (decode .*)", README)
+    monkeypatch.chdir(ROOT)
+
+    assert run(*arguments.split()).code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    zip(
+        re.findall(r"`i7000 ((?:decode|registers) --[^`]*)`", README),
+        ["40489 host_watchdog_timeout 10 s", "40489 host_watchdog_timeout R/W"],
+        strict=True,
+    ),
+)
+def test_the_examples_at_the_terminal_tell_what_they_say(run: Run, arguments: str, words: str) -> None:
+    result = run(*shlex.split(arguments))
+
+    assert words in " ".join(result.out.split())
+    assert result.code == 0
+
+
 @pytest.mark.parametrize("path", sorted(set(re.findall(r"`((?:spec|src|tests)/[\w./]*)`", README))))
 def test_every_path_that_is_named_exists(path: str) -> None:
-    assert (Path(__file__).parents[1] / path).exists()
+    assert (ROOT / path).exists()
