@@ -46,10 +46,12 @@ def test_the_first_command_understands_all(run: Run, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
-    zip(
-        re.findall(r"`i7000 ((?:decode|registers) --[^`]*)`", README),
-        ["40489 host_watchdog_timeout 10 s", "40489 host_watchdog_timeout R/W"],
-        strict=True,
+    list(
+        zip(
+            re.findall(r"`i7000 ((?:decode|registers) --[^`]*)`", README),
+            ["40489 host_watchdog_timeout 10 s", "40489 host_watchdog_timeout R/W"],
+            strict=True,
+        )
     ),
 )
 def test_the_examples_at_the_terminal_tell_what_they_say(run: Run, arguments: str, words: str) -> None:
