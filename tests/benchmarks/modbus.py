@@ -196,22 +196,24 @@ def crc_results() -> Iterator[Result]:
     yield at_least("CRC of 256 bytes, of the floor", times["256"], times["floor 256"], 2.2)
 
 
-def split_all(stream: bytes, size: int) -> int:
+def split_all(stream: bytes, size: int, side: modbus.Side = modbus.Side.RESPONSES) -> int:
     """Feed a stream in pieces and count the frames."""
     found = 0
     rest = b""
     for at in range(0, len(stream), size):
-        frames, rest = modbus.split(rest + stream[at : at + size], modbus.Side.RESPONSES)
-        for frame in frames:
-            if frame.__class__ is bytes:
-                found += 1
+        frames, rest = modbus.split(rest + stream[at : at + size], side)
+        if frames:
+            found += len([frame for frame in frames if frame.__class__ is bytes])
     return found
 
 
 def floor_split_all(stream: bytes, size: int) -> int:
     """The same with the floor."""
     splitter = FloorSplitter()
-    return sum([len(splitter.feed(stream[at : at + size])) for at in range(0, len(stream), size)])
+    found = 0
+    for at in range(0, len(stream), size):
+        found += len(splitter.feed(stream[at : at + size]))
+    return found
 
 
 def splitter_results() -> Iterator[Result]:

@@ -32,6 +32,8 @@ class Side(StrEnum):
     RESPONSES = "responses"
     BOTH = "both"
 
+    __hash__ = str.__hash__  # That of an Enum takes as long as a byte that comes in.
+
 
 @frozen
 class Rule:
@@ -72,14 +74,36 @@ def _rules(side: Side, mask_bytes: tuple[int, ...]) -> dict[tuple[int, int | Non
     return rules
 
 
-@cache
-def _single_rules(side: Side) -> dict[int, tuple[int, int, int]]:
-    """The rules of functions that have but one, which the first three bytes tell: length, where its count is, step."""
-    return {
-        function: (rules[0].length, rules[0].count_at, rules[0].step)
-        for (function, sub_function), rules in _rules(side, _MASK_BYTES).items()
-        if len(rules) == 1 and sub_function is None and rules[0].count_at <= 2 and not function & EXCEPTION_BIT
-    }
+_MISSING = 256
+"""In place of a byte that is not there yet."""
+Starts = list[list[tuple[int, ...] | None]]
+"""The lengths of a frame to one module, by function and third byte; None where it takes more to know."""
+
+
+def _starts(side: Side) -> Starts:
+    """Ask `_lengths` of every start; what depends on the profile takes more."""
+    rules, others = _rules(side, _MASK_BYTES), _rules(side, _MASK_BYTES[:1])
+    no_frame: list[tuple[int, ...] | None] = [()] * (_MISSING + 1)
+    table = [no_frame] * 256 + [[_MORE_IS_NEEDED] * (_MISSING + 1)]
+    for function in {function for function, _ in rules}:
+        row: list[tuple[int, ...] | None] = []
+        for third in range(256):
+            start = bytes((1, function, third))
+            lengths, _ = _lengths(start, 0, rules)
+            known = lengths != _MORE_IS_NEEDED and lengths == _lengths(start, 0, others)[0]
+            row.append(lengths if known else None)
+        table[function] = [*row, _lengths(bytes((1, function)), 0, rules)[0]]
+    return table
+
+
+class _Sides(dict[Side, Starts]):
+    """The starts of each side; made when first needed."""
+
+    def __missing__(self, side: Side) -> Starts:
+        return self.setdefault(side, _starts(side))
+
+
+_BY_START = _Sides()
 
 
 def split(
@@ -93,13 +117,11 @@ def split(
     Manual: 3; E61.
     """
     size = len(buffer)
-    if size > 2:  # one frame that is still coming in, as most calls have it where bytes come one by one
-        rule = _single_rules(side).get(buffer[1])
-        if rule is not None and 0 < buffer[0] <= _LAST_ADDRESS:
-            length, count_at, step = rule
-            count = buffer[count_at] if count_at else 0
-            if size < length + count <= LONGEST_FRAME and not count % step and (count or not count_at):
-                return (), buffer
+    if size and 0 < buffer[0] <= _LAST_ADDRESS:
+        function = buffer[1] if size > 1 else _MISSING
+        lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
+        if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
+            return (), buffer
     return _scan(buffer, side, profile, final=False)
 
 
@@ -123,12 +145,19 @@ def _scan(  # noqa: C901 - one loop
     buffer: bytes, side: Side, profile: Profile | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
     rules = _rules(side, _MASK_BYTES if profile is None else (profile.mask_digits // 2,))
+    by_start = _BY_START[side]
     found: list[bytes | Noise] = []
     size = len(buffer)
     at = noise_at = 0
     fault = Fault.LENGTH
     while at < size:
-        lengths, wrong = _lengths(buffer, at, rules)
+        known = None
+        if at + 2 < size and 0 < buffer[at] <= _LAST_ADDRESS:
+            known = by_start[buffer[at + 1]][buffer[at + 2]]
+        if known == () and noise_at < at:
+            at += 1
+            continue
+        lengths, wrong = (known, Fault.CRC) if known else _lengths(buffer, at, rules)
         end = 0
         for length in lengths:
             if at + length > size:
