@@ -113,7 +113,8 @@ class Profile:
         if self.single_ended and self.model not in AVAILABILITY["2.43"].gates:
             raise EncodeError("single_ended", True, f"7017Z only, {model} has no such mode", "2.43")
         if self.modbus_data_format and Protocol.MODBUS_RTU not in self.model.protocols:
-            raise EncodeError("modbus_data_format", self.modbus_data_format, f"M-7000 series only, {model} has no Modbus", "1.12")
+            allowed = f"M-7000 series only, {model} has no Modbus"
+            raise EncodeError("modbus_data_format", self.modbus_data_format, allowed, "1.12")
 
     def _check_types(self) -> None:
         model = self.model.value

@@ -504,3 +504,17 @@ def test_a_response_with_too_few_items_is_told_so() -> None:
 def test_what_can_only_be_written_cannot_be_planned() -> None:
     with pytest.raises(EncodeError, match="it can only be written"):
         M_7019R.plan(0x01, ["load_factory_calibration"])
+
+
+def test_a_number_is_of_the_area_that_it_tells() -> None:
+    registers = modbus.RegisterMap(Profile(Model.M_7017))
+
+    with pytest.raises(EncodeError, match="has no register '40489'"):
+        registers.find("40489", modbus.Area.COIL)
+
+
+def test_bytes_are_no_value() -> None:
+    registers = modbus.RegisterMap(Profile(Model.M_7017))
+
+    with pytest.raises(EncodeError, match="response_delay cannot be"):
+        registers.write(0x01, "response_delay", b"\x05")

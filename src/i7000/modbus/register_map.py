@@ -81,8 +81,8 @@ class RegisterMap:
         found = [
             row
             for row in self.rows
-            if (key == row.name and area in (None, row.area))
-            or (place and row.area is place[0] and row.address <= place[1] < row.address + row.count)
+            if area in (None, row.area)
+            and (key == row.name or (place and row.area is place[0] and 0 <= place[1] - row.address < row.count))
         ]
         if found:
             return next((row for row in found if row.area in (Area.DISCRETE_INPUT, Area.INPUT_REGISTER)), found[0])
@@ -112,14 +112,14 @@ class RegisterMap:
     ) -> Request[Any]:
         """Make the request that writes a row, or some channels of it.
 
-        Shape: `value` is what `decode` gives: one value for a row of one item, a sequence for several.
+        Shape: `value` is what `decode` gives: one value for a row of one item, a tuple or list for several.
         Special: `big_endian` as in `decode`.
         """
         row = self.find(key)
         if row.access is Access.READ:
             raise EncodeError("register", row.name, "it can only be read", "3.4")
         first, count = self._span(row, channels)
-        values = tuple(value) if isinstance(value, Sequence) else (value,)
+        values = tuple(value) if isinstance(value, tuple | list) else (value,)
         items = count // 2 if row.kind is Kind.UINT32 else count
         if len(values) != items:
             raise EncodeError(row.name, value, f"{items} value(s)", "3.4")
