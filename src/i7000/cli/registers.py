@@ -5,6 +5,7 @@ Laws: every item that a message touches is told, by the manual's number, if it h
 
 from collections.abc import Callable, Iterator
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 from attrs import evolve, frozen
@@ -60,7 +61,7 @@ def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile:
         return
     values = _values(message)
     count = len(values) or getattr(message, "count", 1)
-    known = RegisterMap(profile) if profile else None
+    known = _map(profile) if profile else None
     at, end = starts[0], starts[0] + count
     while at < end:
         row = _row_at(known, area, at)
@@ -68,6 +69,11 @@ def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile:
         sent = values[at - starts[0] :][:used]
         yield from _told(known, row or Register("", area, at), at, sent, whole=used > 1)
         at += used
+
+
+@lru_cache(maxsize=8)
+def _map(profile: Profile) -> RegisterMap:
+    return RegisterMap(profile)
 
 
 def _values(message: modbus.Message) -> tuple[int, ...]:
