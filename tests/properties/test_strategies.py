@@ -9,7 +9,7 @@ from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 
 import i7000
-from i7000 import DataFormat, Fault, Model, Noise, Profile, Reading, Status, TypeCode, dcon
+from i7000 import DataFormat, Fault, Model, Noise, Profile, Reading, Status, TypeCode, dcon, modbus
 from i7000.strategies import errors, firmwares, line_settings, profiles, readings, report_settings, word_readings
 from i7000.strategies.dcon import (
     DAMAGES,
@@ -28,8 +28,12 @@ from i7000.strategies.dcon import (
     streams,
 )
 
-NAMES = (*(getattr(i7000, name) for name in i7000.__all__), *(getattr(dcon, name) for name in dcon.__all__))
-CLASSES = [kind for kind in NAMES if isinstance(kind, type)]
+CLASSES = [
+    kind
+    for module in (i7000, dcon, modbus)
+    for kind in (getattr(module, name) for name in module.__all__)
+    if isinstance(kind, type)
+]
 PLAINEST = Profile(Model.I_7017)
 QUICKLY = settings(max_examples=200, database=None, phases=(Phase.generate, Phase.shrink))
 
@@ -41,7 +45,7 @@ def smallest(strategy: st.SearchStrategy[Any]) -> Any:
 # --- registration -----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: f"{kind.__module__}.{kind.__name__}")
 @settings(max_examples=5)
 @given(data=st.data())
 def test_hypothesis_makes_values_of_every_public_class(kind: type, data: st.DataObject) -> None:
@@ -56,7 +60,7 @@ def test_hypothesis_knows_what_a_host_sends(command: dcon.AnyCommand) -> None:
 @pytest.mark.parametrize(
     "code",
     [
-        "import sys, i7000, i7000.dcon; assert 'hypothesis' not in sys.modules",
+        "import sys, i7000, i7000.dcon, i7000.modbus; assert 'hypothesis' not in sys.modules",
         "import i7000.strategies; from hypothesis import strategies as st; st.from_type(i7000.Profile).validate()",
         "from hypothesis import strategies as st; import i7000; st.from_type(i7000.Profile).validate()",
     ],

@@ -4,7 +4,7 @@ Laws: what happens to a frame has a name and leaves other bytes; what there is t
 it was made, not from `i7000.dcon.split`.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from typing import TypeGuard
 
 from attrs import frozen
@@ -14,42 +14,16 @@ from hypothesis.strategies import SearchStrategy
 from i7000 import Fault, Noise
 from i7000.dcon import LONGEST_FRAME, seal
 from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS
+from i7000.strategies.wires import Damage, Damages, chunkings, damaged_by, each_byte, flipped_bits
 
 __all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "streams"]
 
 # --- damage -----------------------------------------------------------------------------------------------------------
 
 
-@frozen
-class Damage:
-    """A frame, what was done to it, and the bytes that came of it, which are others."""
-
-    label: str
-    """One of `DAMAGES`."""
-    frame: bytes
-    wire: bytes
-
-
 def damaged(frame: bytes) -> SearchStrategy[Damage]:
     """Make damaged frames of a frame, sealed or not."""
-    labels = [label for label, damages in DAMAGES.items() if any(wire != frame for wire in damages(frame))]
-    return st.sampled_from(labels).flatmap(lambda label: _damaged(frame, label))
-
-
-def _damaged(frame: bytes, label: str) -> SearchStrategy[Damage]:
-    wires = [wire for wire in DAMAGES[label](frame) if wire != frame]
-    return st.sampled_from(wires).map(lambda wire: Damage(label, frame, wire))
-
-
-def _each(damage: Callable[[bytes, bytes, bytes], bytes]) -> Callable[[bytes], Iterator[bytes]]:
-    """Do `damage` to each byte, between what is before and after it."""
-    return lambda frame: (damage(frame[:at], frame[at : at + 1], frame[at + 1 :]) for at in range(len(frame)))
-
-
-def _flipped_bits(frame: bytes) -> Iterator[bytes]:
-    for at, byte in enumerate(frame):
-        for bit in range(8):
-            yield frame[:at] + bytes((byte ^ 1 << bit,)) + frame[at + 1 :]
+    return damaged_by(DAMAGES, frame)
 
 
 def _wrong_checksums(frame: bytes) -> Iterator[bytes]:
@@ -57,16 +31,16 @@ def _wrong_checksums(frame: bytes) -> Iterator[bytes]:
         yield frame[:-3] + b"%02X\r" % value
 
 
-DAMAGES: Mapping[str, Callable[[bytes], Iterator[bytes]]] = {
-    "flipped bit": _flipped_bits,
-    "lost byte": _each(lambda before, _, after: before + after),
-    "doubled byte": _each(lambda before, byte, after: before + byte + byte + after),
-    "swapped neighbours": _each(lambda before, byte, after: before + after[:1] + byte + after[1:]),
-    "lower-cased": _each(lambda before, byte, after: before + byte.lower() + after),
-    "truncated": _each(lambda before, _, __: before),
+DAMAGES: Damages = {
+    "flipped bit": flipped_bits,
+    "lost byte": each_byte(lambda before, _, after: before + after),
+    "doubled byte": each_byte(lambda before, byte, after: before + byte + byte + after),
+    "swapped neighbours": each_byte(lambda before, byte, after: before + after[:1] + byte + after[1:]),
+    "lower-cased": each_byte(lambda before, byte, after: before + byte.lower() + after),
+    "truncated": each_byte(lambda before, _, __: before),
     "wrong checksum": _wrong_checksums,
-    "foreign byte": _each(lambda before, byte, after: before + b"\xff" + byte + after),
-    "early end": _each(lambda before, byte, after: before + b"\r" + byte + after),
+    "foreign byte": each_byte(lambda before, byte, after: before + b"\xff" + byte + after),
+    "early end": each_byte(lambda before, byte, after: before + b"\r" + byte + after),
     "glued": lambda frame: iter((frame + frame,)),
 }
 """What can happen to a frame, by its label: every one of the wires that may come of it."""
@@ -151,14 +125,3 @@ def _wrongly_sealed(draw: st.DrawFn, _: object) -> _Events:
     right = draw(frames(checksum=True))
     wrong = draw(st.sampled_from([wire for wire in _wrong_checksums(right) if wire != right]))
     return [Noise(wrong, Fault.CHECKSUM)]
-
-
-@st.composite
-def chunkings(draw: st.DrawFn, stream: bytes) -> tuple[bytes, ...]:
-    """Make the pieces in which a stream may arrive: one, many, or each of the same size."""
-    length = len(stream)
-    cuts = draw(
-        st.lists(st.integers(0, length), max_size=8).map(sorted)
-        | st.integers(1, 64).map(lambda size: list(range(0, length, size)))
-    )
-    return tuple(stream[start:end] for start, end in zip((0, *cuts), (*cuts, length), strict=True))

@@ -1,0 +1,173 @@
+"""Strategies for Modbus RTU frames: what can be done to them, and the streams in which they come.
+
+Laws: what happens to a frame has a name and leaves other bytes; what there is to find in a stream is known from the way
+it was made, not from `i7000.modbus.split`.
+"""
+
+from collections.abc import Callable, Iterator
+
+from attrs import frozen
+from hypothesis import assume
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from i7000 import Fault, Noise, Profile
+from i7000.modbus import LONGEST_FRAME, Side, encode, seal
+from i7000.strategies.modbus.messages import exchanges, profiles, requests
+from i7000.strategies.wires import Damage, Damages, chunkings, damaged_by, each_byte, flipped_bits
+
+__all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "streams"]
+
+# --- damage -----------------------------------------------------------------------------------------------------------
+
+
+def damaged(frame: bytes) -> SearchStrategy[Damage]:
+    """Make damaged frames of a frame."""
+    return damaged_by(DAMAGES, frame)
+
+
+def _wrong_crcs(frame: bytes) -> Iterator[bytes]:
+    for value in range(0x100):
+        yield frame[:-2] + bytes((value,)) + frame[-1:]
+        yield frame[:-1] + bytes((value,))
+
+
+def _sealed(damage: Callable[[bytes], Iterator[bytes]]) -> Callable[[bytes], Iterator[bytes]]:
+    """Do `damage` to address and PDU, and make the CRC right again."""
+    return lambda frame: map(seal, damage(frame[:-2]))
+
+
+DAMAGES: Damages = {
+    "flipped bit": flipped_bits,
+    "lost byte": each_byte(lambda before, _, after: before + after),
+    "doubled byte": each_byte(lambda before, byte, after: before + byte + byte + after),
+    "swapped neighbours": each_byte(lambda before, byte, after: before + after[:1] + byte + after[1:]),
+    "truncated": each_byte(lambda before, _, __: before),
+    "wrong CRC": _wrong_crcs,
+    "CRC high byte first": lambda frame: iter((frame[:-2] + frame[:-3:-1],)),
+    "foreign byte": each_byte(lambda before, byte, after: before + b"\xff" + byte + after),
+    "glued": lambda frame: iter((frame + frame,)),
+    "flipped bit, right CRC": _sealed(flipped_bits),
+    "lost byte, right CRC": _sealed(each_byte(lambda before, _, after: before + after)),
+    "doubled byte, right CRC": _sealed(each_byte(lambda before, byte, after: before + byte + byte + after)),
+    "truncated, right CRC": _sealed(each_byte(lambda before, _, __: before)),
+}
+"""What can happen to a frame, by its label: every one of the wires that may come of it."""
+
+# --- streams ----------------------------------------------------------------------------------------------------------
+
+_FUNCTIONS = bytes((*range(0x01, 0x07), 0x0F, 0x10, 0x46))
+_SHORTEST_ANSWER = 5
+_NO_ADDRESSES = bytes(range(0xF8, 0x100))
+_NO_FUNCTIONS = bytes(sorted(set(range(0xF8)) - {it | bit for it in _FUNCTIONS for bit in (0, 0x80)}))
+_NO_SUB_FUNCTIONS = bytes(range(0x31, 0xF8))
+
+
+@st.composite
+def frames(draw: st.DrawFn, side: Side = Side.BOTH, profile: Profile | None = None) -> bytes:
+    """Make frames of one side or both, broadcasts and exceptions among them, of one module or of any."""
+    profile = profile or draw(profiles())
+    if side is Side.BOTH:
+        side = draw(st.sampled_from((Side.REQUESTS, Side.RESPONSES)))
+    if side is Side.REQUESTS:
+        return encode(draw(requests(profile)), profile)
+    return draw(exchanges(profile=profile)).response_wire
+
+
+@frozen
+class Stream:
+    """What a line delivered before it fell silent, and what there is to find in it."""
+
+    wire: bytes
+    side: Side
+    profile: Profile | None
+    """What is known beforehand of the module."""
+    events: tuple[bytes | Noise, ...]
+    """Frames, and the noise between them in runs as long as can be."""
+
+
+@st.composite
+def streams(draw: st.DrawFn, side: Side | None = None) -> Stream:
+    """Make streams of frames and noise, of one side or of any."""
+    side = side or draw(st.sampled_from(Side))
+    profile = draw(st.none() | profiles())
+    kinds: list[Callable[[st.DrawFn, Side, Profile | None], bytes | Noise]] = [
+        _frame,
+        _foreign,
+        _without_function,
+        _without_sub_function,
+        _with_wrong_crc,
+        _cut_short,
+    ]
+    events: list[bytes | Noise] = []
+    for kind in draw(st.lists(st.sampled_from(kinds), max_size=8)):
+        event = kind(draw, side, profile)
+        last = events[-1] if events else None
+        if isinstance(last, Noise) and isinstance(event, Noise):
+            events[-1] = Noise(last.wire + event.wire, last.fault)
+        else:
+            events.append(event)
+    wire = b"".join(event.wire if isinstance(event, Noise) else event for event in events)
+    assume(_is_unambiguous(wire, events))
+    return Stream(wire, side, profile, tuple(events))
+
+
+def _frame(draw: st.DrawFn, side: Side, profile: Profile | None) -> bytes:
+    return draw(frames(side, profile))
+
+
+def _foreign(draw: st.DrawFn, *_: object) -> Noise:
+    first, others = draw(st.sampled_from(_NO_ADDRESSES)), draw(st.binary(max_size=20))
+    return Noise(bytes((first,)) + others, Fault.ADDRESS)
+
+
+def _without_function(draw: st.DrawFn, *_: object) -> Noise:
+    address, function = draw(st.integers(1, 247)), draw(st.sampled_from(_NO_FUNCTIONS))
+    return Noise(bytes((address, function)), Fault.FUNCTION)
+
+
+def _without_sub_function(draw: st.DrawFn, *_: object) -> Noise:
+    address, sub_function = draw(st.integers(1, 247)), draw(st.sampled_from(_NO_SUB_FUNCTIONS))
+    return Noise(bytes((address, 0x46, sub_function)), Fault.SUB_FUNCTION)
+
+
+def _with_wrong_crc(draw: st.DrawFn, side: Side, profile: Profile | None) -> Noise:
+    frame = draw(frames(side, profile))
+    return Noise(draw(st.sampled_from([wire for wire in _wrong_crcs(frame) if wire != frame])), Fault.CRC)
+
+
+def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> Noise:
+    """Cut a frame off behind the bytes that tell its length."""
+    frame = draw(frames(side, profile))
+    return Noise(frame[: draw(st.integers(min(7, len(frame) - 1), len(frame) - 1))], Fault.CRC)
+
+
+def _is_unambiguous(wire: bytes, events: list[bytes | Noise]) -> bool:
+    """Tell whether no CRC is good by accident: none that begins in noise, none of a part of a frame."""
+    at = 0
+    for event in events:
+        if isinstance(event, Noise):
+            places = range(at, at + len(event.wire))
+            if any(wire[place + 1 : place + 2] in _STARTS and _good_end(wire, place) for place in places):
+                return False
+            at += len(event.wire)
+        else:
+            if _good_end(wire, at) != at + len(event):
+                return False
+            at += len(event)
+    return True
+
+
+_STARTS = {bytes((function | bit,)) for function in _FUNCTIONS for bit in (0, 0x80)}
+
+
+def _good_end(wire: bytes, at: int) -> int:
+    """Tell where the first CRC is good that begins at a place; 0 if none is."""
+    crc = 0xFFFF
+    for end, byte in enumerate(wire[at : at + LONGEST_FRAME], at + 1):
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
+        if not crc and end >= at + _SHORTEST_ANSWER:
+            return end
+    return 0

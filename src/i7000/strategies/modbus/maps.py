@@ -1,0 +1,111 @@
+"""Strategies for the address maps: rows, what they hold, plans.
+
+Laws: a value is made from counts within the range of its row: `i7000.modbus.RegisterMap.write` takes it where the row
+can be written, `decode` gives it.
+"""
+
+from collections.abc import Callable, Mapping
+from enum import Enum
+from typing import Any
+
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from i7000 import CjcUpdate, Filter, ModbusDataFormat, Profile, Protocol, Reading
+from i7000.modbus import Access, Kind, LogRecord, Plan, Register, RegisterMap
+from i7000.strategies.modbus.messages import profiles
+from i7000.strategies.vocabulary import line_settings, supported_types, word_readings
+
+__all__ = ["plans", "register_items", "register_maps", "register_values", "registers"]
+
+_CHOICES: Mapping[str, type[Enum]] = {
+    "cjc_update": CjcUpdate,
+    "protocol": Protocol,
+    "modbus_data_format": ModbusDataFormat,
+    "filter": Filter,
+}
+_RECORD_WORDS = 18
+_HIGHEST = {Kind.UINT32: 0xFFFFFFFF, Kind.INT16: 0x7FFF}
+
+
+def register_maps() -> SearchStrategy[RegisterMap]:
+    """Make address maps, of modules whose types are known."""
+    return profiles(known_types=True).map(RegisterMap)
+
+
+def registers(
+    profile: Profile | None = None, *, readable: bool = False, writable: bool = False
+) -> SearchStrategy[Register]:
+    """Make rows of the map of a module that speaks Modbus, or of any: all, `readable` or `writable` ones."""
+    if profile is None:
+        return profiles().flatmap(lambda found: registers(found, readable=readable, writable=writable))
+    refused = {Access.WRITE: readable, Access.READ: writable, Access.READ_WRITE: False}
+    return st.sampled_from([row for row in _rows(RegisterMap(profile)) if not refused[row.access]])
+
+
+def _rows(found: RegisterMap) -> list[Register]:
+    """List the rows, ``analog_input`` first."""
+    return sorted(found, key=lambda row: row.address)
+
+
+@st.composite
+def plans(draw: st.DrawFn) -> Plan:
+    """Make plans to read some rows of a map, each thing by one of its numbers."""
+    found = draw(register_maps())
+    wanted = draw(st.lists(registers(found.profile, readable=True), unique_by=lambda row: row.name, min_size=1))
+    return found.plan(draw(st.integers(1, 247)), [row.number for row in wanted])
+
+
+def register_items(row: Register, profile: Profile) -> SearchStrategy[tuple[int, ...]]:
+    """Make the items of a row as a module may send them: any bits or words."""
+    count = _items(row, profile)
+    return st.tuples(*[st.booleans() if row.area.bits else st.integers(0, 0xFFFF)] * count)
+
+
+def register_values(row: Register, profile: Profile) -> SearchStrategy[Any]:
+    """Make what a row of the map of a module holds whose types are known: a value, or one for each channel."""
+    count = _items(row, profile)
+    if row.kind is Kind.READING:
+        return st.tuples(*[word_readings(code, profile.modbus_data_format) for code in profile.type_codes[:count]])
+    if row.kind is Kind.RECORD:
+        readings = st.tuples(*[word_readings(code, profile.modbus_data_format) for code in profile.type_codes])
+        return st.tuples(*[st.builds(LogRecord, readings, st.integers(0, 0xFFFFFFFF))] * (count // _RECORD_WORDS))
+    single = _single(row, profile)
+    return single if row.count == 1 or row.kind is Kind.UINT32 else st.tuples(*[single] * count)
+
+
+def _items(row: Register, profile: Profile) -> int:
+    """Tell how many items are read at once: of channels, those of the connecting mode."""
+    by_channel = row.count > 1 and row.kind not in (Kind.UINT32, Kind.RECORD)
+    return min(row.count, profile.channels) if by_channel else row.count
+
+
+def _single(row: Register, profile: Profile) -> SearchStrategy[Any]:
+    if row.name in ("type_code", "module_type_code"):
+        return st.sampled_from(supported_types(profile))
+    if row.name == "line_settings":
+        return line_settings(profile)
+    if row.name in _CHOICES:
+        return st.sampled_from(_CHOICES[row.name])
+    if row.name == "module_name":
+        return st.sampled_from((b"\x00\x70\x17\x00", b"\x00\x70\x18\x00", b"\x00\x70\x19\x00"))
+    if row.kind is Kind.BOOL:
+        return st.just(True) if row.minimum else st.booleans()
+    signed = row.kind is Kind.INT16
+    low = (-0x8000 if signed else 0) if row.minimum is None else row.minimum
+    high = _HIGHEST.get(row.kind, 0xFFFF) if row.maximum is None else row.maximum
+    counts = st.integers(low, high)
+    return counts if row.scale in (None, 1) else counts.map(lambda count: count / round(1 / (row.scale or 1)))
+
+
+def _records() -> SearchStrategy[LogRecord]:
+    return st.builds(LogRecord, st.tuples(*[st.from_type(Reading)] * 16), st.integers(0, 0xFFFFFFFF))
+
+
+BY_KIND: Mapping[type, Callable[[], SearchStrategy[Any]]] = {
+    LogRecord: _records,
+    Plan: plans,
+    Register: registers,
+    RegisterMap: register_maps,
+}
+"""The strategies of the public classes that are no messages."""
