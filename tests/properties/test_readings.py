@@ -1,5 +1,6 @@
 """What holds for every reading, in every format and type: much of it is tried out whole."""
 
+from collections import Counter
 from collections.abc import Callable
 from math import inf, nan
 
@@ -57,6 +58,27 @@ def test_every_modbus_engineering_word_of_the_span_is_written_as_it_was_read(cod
     words = [0x7FFF, 0x8000, *(count & 0xFFFF for count in counts)]
 
     assert [word for word in words if word != encode_engineering_word(decode_engineering_word(word, code), code)] == []
+
+
+@each_type
+def test_every_modbus_engineering_word_is_a_reading(code: TypeCode) -> None:
+    statuses = Counter(decode_engineering_word(word, code).status for word in WORDS)
+
+    assert statuses == {Status.OK: 0xFFFE, Status.OVER_RANGE: 1, Status.UNDER_RANGE: 1}
+
+
+@given(TYPES, st.integers(-0x7FFF, 0x7FFE))
+def test_a_modbus_engineering_word_beyond_the_span_is_not_written(code: TypeCode, counts: int) -> None:
+    scale = 10**code.modbus_decimals
+    reading = decode_engineering_word(counts & 0xFFFF, code)
+    if code.minimum * scale <= counts <= code.maximum * scale:
+        assert encode_engineering_word(reading, code) == counts & 0xFFFF
+        return
+
+    with pytest.raises(EncodeError) as caught:
+        encode_engineering_word(reading, code)
+
+    assert caught.value.field == "value"
 
 
 @each_type

@@ -1,0 +1,253 @@
+"""What the CRC notices, and what is found in every stream of Modbus frames and noise."""
+
+import pytest
+from hypothesis import HealthCheck, assume, example, given, settings
+from hypothesis import strategies as st
+
+from i7000 import DecodeError, Fault, Noise, Profile, modbus
+from i7000.strategies.modbus import DAMAGES, Exchange, Stream, chunkings, exchanges, frames, profiles, streams
+
+# --- what the CRC notices, and what it cannot -------------------------------------------------------------------------
+
+SHORT = frames().filter(lambda frame: len(frame) <= 8)
+LONGEST = modbus.seal(bytes(range(254)))
+
+
+def with_flipped(frame: bytes, *bits: int) -> bytes:
+    number = int.from_bytes(frame, "little")
+    for bit in bits:
+        number ^= 1 << bit
+    return number.to_bytes(len(frame), "little")
+
+
+def is_refused(wire: bytes) -> bool:
+    try:
+        modbus.unseal(wire)
+    except DecodeError as error:
+        return error.fault is Fault.CRC
+    return False
+
+
+@settings(suppress_health_check=[*settings().suppress_health_check, HealthCheck.filter_too_much])
+@given(SHORT)
+def test_one_or_two_flipped_bits_of_a_short_frame_are_noticed(frame: bytes) -> None:
+    bits = range(8 * len(frame))
+
+    assert [bit for bit in bits if not is_refused(with_flipped(frame, bit))] == []
+    assert [
+        (bit, other) for bit in bits for other in range(bit) if not is_refused(with_flipped(frame, bit, other))
+    ] == []
+
+
+@given(st.data())
+def test_the_crc_of_a_sum_is_the_sum_of_the_crcs(data: st.DataObject) -> None:
+    size = data.draw(st.integers(1, modbus.LONGEST_FRAME))
+    one, two, three = (data.draw(st.binary(min_size=size, max_size=size)) for _ in range(3))
+    total = bytes(a ^ b ^ c for a, b, c in zip(one, two, three, strict=True))
+
+    assert modbus.crc16(one) ^ modbus.crc16(two) ^ modbus.crc16(three) == modbus.crc16(total)
+
+
+def test_one_or_two_flipped_bits_of_the_longest_frame_are_noticed() -> None:
+    # The CRC being a sum, two flips leave it right where each changes it in the same way.
+    changes = {modbus.crc16(with_flipped(LONGEST, bit)) for bit in range(8 * len(LONGEST))}
+
+    assert len(LONGEST) == modbus.LONGEST_FRAME
+    assert len(changes) == 8 * len(LONGEST)
+    assert 0 not in changes
+
+
+@given(frames(), st.data())
+def test_one_or_two_flipped_bits_of_any_frame_are_noticed(frame: bytes, data: st.DataObject) -> None:
+    places = st.integers(0, 8 * len(frame) - 1)
+    flipped = data.draw(st.sets(places, min_size=1, max_size=2))
+
+    assert is_refused(with_flipped(frame, *flipped))
+
+
+@given(frames(), st.data())
+def test_a_burst_of_up_to_16_bits_is_noticed(frame: bytes, data: st.DataObject) -> None:
+    first = data.draw(st.integers(0, 8 * len(frame) - 16))
+    burst = data.draw(st.integers(1, 0xFFFF)) << first
+
+    assert is_refused((int.from_bytes(frame, "little") ^ burst).to_bytes(len(frame), "little"))
+
+
+@given(frames(), st.data())
+@example(modbus.seal(b"\x01\x04\x02\x09\xd0"), None)
+def test_a_burst_like_the_polynomial_is_not_noticed(frame: bytes, data: st.DataObject | None) -> None:
+    first = data.draw(st.integers(0, 8 * len(frame) - 17)) if data else 24
+    changed = (int.from_bytes(frame, "little") ^ 0x14003 << first).to_bytes(len(frame), "little")
+
+    assert changed[:-2] == modbus.unseal(changed)
+
+
+@pytest.mark.parametrize("frame", [bytes.fromhex("010400000008f1cc"), bytes.fromhex("018402c2c1")], ids=bytes.hex)
+def test_every_other_crc_is_refused(frame: bytes) -> None:
+    right = int.from_bytes(frame[-2:], "little")
+    accepted = [crc for crc in range(0x10000) if not is_refused(frame[:-2] + crc.to_bytes(2, "little"))]
+
+    assert accepted == [right]
+
+
+@given(frames().filter(lambda frame: frame[-1] != frame[-2]))
+def test_a_crc_with_its_high_byte_first_is_refused(frame: bytes) -> None:
+    assert [is_refused(wire) for wire in DAMAGES["CRC high byte first"](frame)] == [True]
+
+
+@given(exchanges())
+def test_no_flipped_bit_of_a_message_goes_unnoticed(exchange: Exchange) -> None:
+    for wire in DAMAGES["flipped bit"](exchange.request_wire):
+        with pytest.raises(DecodeError):
+            modbus.decode_request(wire, exchange.profile)
+    for wire in DAMAGES["flipped bit"](exchange.response_wire):
+        with pytest.raises(DecodeError):
+            modbus.decode_response(wire, exchange.request, exchange.profile)
+
+
+@given(st.binary(max_size=300))
+def test_a_body_that_is_sealed_is_unsealed_if_it_has_the_length_of_a_frame(body: bytes) -> None:
+    frame = modbus.seal(body)
+
+    assert modbus.crc16(frame) == 0
+    if modbus.SHORTEST_FRAME <= len(frame) <= modbus.LONGEST_FRAME:
+        assert body == modbus.unseal(frame)
+        return
+    with pytest.raises(DecodeError) as caught:
+        modbus.unseal(frame)
+
+    assert caught.value.fault is Fault.LENGTH
+
+
+# --- streams ----------------------------------------------------------------------------------------------------------
+
+Events = list[bytes | Noise]
+
+
+def split(pieces: tuple[bytes, ...], side: modbus.Side, profile: Profile | None) -> tuple[Events, bytes]:
+    """What is found in a stream that arrives in pieces; each rest is shorter than a frame."""
+    found: Events = []
+    rest = b""
+    for piece in pieces:
+        events, rest = modbus.split(rest + piece, side, profile)
+        assert len(rest) < modbus.LONGEST_FRAME
+        found += events
+    return found, rest
+
+
+def split_to_the_end(pieces: tuple[bytes, ...], side: modbus.Side, profile: Profile | None) -> Events:
+    """What is found in a stream after which the line falls silent."""
+    found, rest = split(pieces, side, profile)
+    return [*found, *modbus.flush(rest, side, profile)]
+
+
+def runs(events: Events) -> tuple[bytes | Noise, ...]:
+    """The events with adjacent noise put together."""
+    found: Events = []
+    for event in events:
+        last = found[-1] if found else None
+        if isinstance(event, Noise) and isinstance(last, Noise):
+            found[-1] = Noise(last.wire + event.wire, last.fault)
+        else:
+            found.append(event)
+    return tuple(found)
+
+
+def wires(events: Events) -> bytes:
+    return b"".join(event.wire if isinstance(event, Noise) else event for event in events)
+
+
+def chopped(wires: st.SearchStrategy[bytes]) -> st.SearchStrategy[tuple[bytes, tuple[bytes, ...]]]:
+    return wires.flatmap(lambda wire: st.tuples(st.just(wire), chunkings(wire)))
+
+
+SIDES = st.sampled_from(modbus.Side)
+LIKELY = st.sampled_from((0x00, 0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10, 0x46, 0x83, 0xC6, 0xFF))
+MANY_BYTES = st.binary(max_size=1000) | st.lists(
+    st.binary(max_size=4) | st.lists(LIKELY, max_size=12).map(bytes) | frames(), max_size=12
+).map(b"".join)
+"""Bytes of every kind, and such as look like frames, or are."""
+
+
+@given(streams())
+def test_every_frame_of_a_stream_is_found_and_all_noise_is_named(stream: Stream) -> None:
+    assert stream.events == runs(split_to_the_end((stream.wire,), stream.side, stream.profile))
+
+
+@given(streams().flatmap(lambda stream: st.tuples(st.just(stream), chunkings(stream.wire))))
+def test_however_a_stream_arrives_the_same_is_found(case: tuple[Stream, tuple[bytes, ...]]) -> None:
+    stream, pieces = case
+
+    assert stream.events == runs(split_to_the_end(pieces, stream.side, stream.profile))
+
+
+@pytest.mark.parametrize("side", modbus.Side)
+@given(st.data())
+def test_a_stream_of_frames_alone_is_split_at_once(side: modbus.Side, data: st.DataObject) -> None:
+    stream = data.draw(streams(side))
+    found = [event for event in stream.events if isinstance(event, bytes)]
+
+    assert (tuple(found), b"") == modbus.split(b"".join(found), side, stream.profile)
+
+
+@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
+def test_no_byte_of_a_stream_is_lost(
+    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
+) -> None:
+    wire, pieces = case
+
+    events, rest = split(pieces, side, profile)
+
+    assert wire == wires(events) + rest
+    assert rest == wires(list(modbus.flush(rest, side, profile)))
+
+
+@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
+def test_any_bytes_are_split_the_same_however_they_arrive(
+    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
+) -> None:
+    wire, pieces = case
+    one_by_one = tuple(wire[at : at + 1] for at in range(len(wire)))
+
+    whole, rest = split((wire,), side, profile)
+
+    for chunks in (pieces, one_by_one):
+        events, kept = split(chunks, side, profile)
+        assert rest == kept
+        assert runs(whole) == runs(events)
+
+
+@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
+def test_what_is_found_is_a_frame(
+    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
+) -> None:
+    for event in split_to_the_end(case[1], side, profile):
+        if isinstance(event, bytes):
+            assert event[:-2] == modbus.unseal(event)
+        else:
+            assert event.wire
+
+
+@given(st.data(), SIDES)
+def test_a_frame_without_its_end_is_kept_for_later(data: st.DataObject, side: modbus.Side) -> None:
+    profile = data.draw(profiles())
+    frame = data.draw(frames(side, profile))
+    end = data.draw(st.integers(0, len(frame) - 1))
+    assume(all(modbus.crc16(frame[:length]) for length in range(modbus.SHORTEST_FRAME, len(frame))))
+
+    assert modbus.split(frame[:end], side, profile) == ((), frame[:end])
+    assert modbus.split(frame, side, profile) == ((frame,), b"")
+
+
+@given(exchanges(), st.binary(max_size=8))
+def test_an_echo_is_dropped_and_nothing_else(exchange: Exchange, more: bytes) -> None:
+    sent = exchange.request_wire
+
+    assert modbus.drop_echo(sent + more, sent) == more
+    assert {modbus.drop_echo(sent[:end], sent) for end in range(len(sent) + 1)} == {b""}
+    for wire in DAMAGES["flipped bit"](sent):
+        with pytest.raises(DecodeError) as caught:
+            modbus.drop_echo(wire + more, sent)
+
+        assert caught.value.fault is Fault.ECHO
+        assert caught.value.wire == wire + more
