@@ -195,6 +195,10 @@ def encode(
     printer = Printer(json=json)
     try:
         message = make(name, fields, MODBUS if protocol == "rtu" else DCON)
+    except EncodeError as refusal:
+        printer.error(str(refusal))
+        return 1
+    try:
         frame = encode_message(message, known, force=force)
     except EncodeError as refusal:
         printer.error(refusal if known.model else f"no model takes it; the first says: {refusal}")

@@ -86,7 +86,7 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[T
         yield _row(name, words)
     yield from _registers(record["registers"])
     yield from _readings(record)
-    if len(record["data_formats"]) > 1:
+    if record["readings"] and record["data_formats"]:
         yield _row("format", " or ".join(record["data_formats"]))
     if record["checksum"]:
         yield _row("checksum", "right")
