@@ -13,10 +13,19 @@ ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
-    (example,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+def run_example(number: int) -> None:
+    exec(compile(re.findall(r"```python\n(.*?)```", README, re.DOTALL)[number], "README.md", "exec"), {})  # noqa: S102
 
-    exec(compile(example, "README.md", "exec"), {})  # noqa: S102
+
+def test_the_modbus_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(1)
+
+    (printed,) = capsys.readouterr().out.splitlines()
+    assert f"# {printed}" in README
+
+
+def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(0)
 
     printed = capsys.readouterr().out.splitlines()
     assert len(printed) == 8
