@@ -170,7 +170,7 @@ def codec_results() -> Iterator[Result]:
             assert task() == REQUEST_FRAME, name
         elif name.endswith(" decode"):
             assert task() == VALUES, name
-    times = best_times(ours | peers)
+    times = best_times(ours | peers, turns=100, seconds=0.004)
     yield at_least("request from integers -> RTU frame, of the floor", times["encode"], times["floor encode"], 0.6)
     yield at_least("response of 10 registers, of the floor's tuple", times["decode"], times["floor decode"], 0.9)
     for peer in peers:
@@ -190,7 +190,9 @@ def crc_results() -> Iterator[Result]:
             "floor 8": lambda: floor_crc(short),
             "256": lambda: modbus.crc16(noise),
             "floor 256": lambda: floor_crc(noise),
-        }
+        },
+        turns=100,
+        seconds=0.004,
     )
     yield at_least("CRC of 8 bytes, of the floor", times["8"], times["floor 8"], 1.0)
     yield at_least("CRC of 256 bytes, of the floor", times["256"], times["floor 256"], 2.2)

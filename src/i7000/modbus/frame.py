@@ -4,7 +4,6 @@ Laws: `seal` and `unseal` are each other's inverse.
 """
 
 import struct
-from collections.abc import Callable
 
 from i7000.errors import DecodeError, Fault
 
@@ -34,14 +33,18 @@ _TWO: list[int] = []
 """What two bytes do to it; made when first needed."""
 
 
-class _Words(dict[int, Callable[[bytes, int], tuple[int, ...]]]):
-    """How so many words are read; made when first needed."""
+class WordStructs(dict[int, struct.Struct]):
+    """So many words in one byte order, ``<`` or ``>``; made when first needed."""
 
-    def __missing__(self, count: int) -> Callable[[bytes, int], tuple[int, ...]]:
-        return self.setdefault(count, struct.Struct(f"<{count}H").unpack_from)
+    def __init__(self, order: str) -> None:
+        super().__init__()
+        self._order = order
+
+    def __missing__(self, count: int) -> struct.Struct:
+        return self.setdefault(count, struct.Struct(f"{self._order}{count}H"))
 
 
-_WORDS = _Words()
+_WORDS = WordStructs("<")
 _PACK = struct.Struct("<H").pack
 
 
@@ -54,13 +57,14 @@ def crc16(data: bytes) -> int:
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
         _TWO.extend([crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs])
+    two = _TWO
     crc = _START
     length = len(data)
     odd = length & 1
     if odd:
         crc = crc >> 8 ^ _ONE[(crc ^ data[0]) & 0xFF]
-    for word in _WORDS[length >> 1](data, odd):
-        crc = _TWO[crc ^ word]
+    for word in _WORDS[length >> 1].unpack_from(data, odd):
+        crc = two[crc ^ word]
     return crc
 
 

@@ -17,12 +17,13 @@ Laws: the constructor takes exactly the values that a field's `Item` accepts; wh
 
 import struct
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache, partial, update_wrapper
+from functools import partial, update_wrapper
 from typing import Annotated, Any
 
 from attrs import fields, frozen
 
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.modbus.frame import WordStructs
 from i7000.profile import Profile
 from i7000.settings import CjcUpdate, LineSettings, Protocol
 from i7000.type_codes import TypeCode
@@ -113,13 +114,11 @@ Name = Annotated[bytes, Item("4 bytes", lambda it: isinstance(it, bytes) and len
 # --- bits and words ---------------------------------------------------------------------------------------------------
 
 
-@cache
-def _struct_of_words(count: int) -> struct.Struct:
-    return struct.Struct(f">{count}H")
+_WORDS = WordStructs(">")
 
 
 def _pack_words(words: tuple[int, ...]) -> bytes:
-    return _struct_of_words(len(words)).pack(*words)
+    return _WORDS[len(words)].pack(*words)
 
 
 def _pack_bits(bits: tuple[bool, ...]) -> bytes:
@@ -191,7 +190,7 @@ class Layout:
         form = struct.Struct(">" + "".join(token.form for token in fixed))
         names: dict[str, Any] = {
             "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
-            "pack_words": _pack_words, "struct_of_words": _struct_of_words, "pack_bits": _pack_bits,
+            "pack_words": _pack_words, "WORDS": _WORDS, "pack_bits": _pack_bits,
             "unpack_bits": _unpack_bits, "pack_mask": _pack_mask, "mask_bytes": _mask_bytes,
             "fail": _fail, "refuse": partial(_refuse, message.section),
         }  # fmt: skip
@@ -301,7 +300,7 @@ def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]: 
     else:
         yield f"    if not 1 <= bytes <= {2 * MOST_WORDS}{' or bytes & 1' if words else ''}:"
         yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', item_{name}.allowed)"
-    unpacked = f"struct_of_words(bytes >> 1).unpack_from(b, {size})" if words else f"unpack_bits(b[{size}:])"
+    unpacked = f"WORDS[bytes >> 1].unpack_from(b, {size})" if words else f"unpack_bits(b[{size}:])"
     yield f"    {name} = {unpacked}"
     if items_are_counted and not words:
         yield f"    if any({name}[count:]):"
