@@ -164,11 +164,17 @@ def test_what_a_row_holds_is_one_value_or_one_for_each_channel(found: RegisterMa
     value = data.draw(register_values(row, found.profile))
 
     if row.kind is Kind.RECORD:
-        assert [len(record.readings) for record in value] == [16] * 6
+        assert len(value) == 6
     elif row.count > 1 and row.kind is not Kind.UINT32:
         assert len(value) == min(row.count, found.profile.channels)
     else:
         assert not isinstance(value, tuple)
+
+
+def test_a_log_holds_six_records_of_sixteen_channels() -> None:
+    row = RegisterMap(LOGGER).find("log_records")
+
+    assert [len(record.readings) for record in smallest(register_values(row, LOGGER))] == [16] * 6
 
 
 @pytest.mark.parametrize(

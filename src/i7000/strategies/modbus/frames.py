@@ -144,18 +144,16 @@ def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> Noise:
 
 def _is_unambiguous(wire: bytes, events: list[bytes | Noise]) -> bool:
     """Tell whether no CRC is good by accident: none that begins in noise, none of a part of a frame."""
+    ends: dict[int, int] = {}
     at = 0
     for event in events:
         if isinstance(event, Noise):
-            places = range(at, at + len(event.wire))
-            if any(wire[place + 1 : place + 2] in _STARTS and _good_end(wire, place) for place in places):
-                return False
+            ends |= {place: 0 for place in range(at, at + len(event.wire)) if wire[place + 1 : place + 2] in _STARTS}
             at += len(event.wire)
         else:
-            if _good_end(wire, at) != at + len(event):
-                return False
-            at += len(event)
-    return True
+            ends[at] = at + len(event)
+            at = ends[at]
+    return all(_good_end(wire, place) == end for place, end in ends.items())
 
 
 _STARTS = {bytes((function | bit,)) for function in _FUNCTIONS for bit in (0, 0x80)}
