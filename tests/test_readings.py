@@ -159,6 +159,12 @@ def test_the_first_bad_field_is_pointed_at() -> None:
     assert (caught.value.fault, caught.value.offset) == (Fault.NUMBER, 14)
 
 
+@pytest.mark.parametrize("value", [0.0, -0.0, -0.0004])
+def test_zero_is_written_with_a_plus(value: float) -> None:
+    for data_format, field in ((DataFormat.ENGINEERING, "+00.000"), (DataFormat.PERCENT, "+000.00")):
+        assert field == encode_field(Reading(value, Unit.VOLT), TypeCode.V_10, data_format)
+
+
 @pytest.mark.parametrize("data_format", DataFormat)
 def test_a_disabled_channel_is_blanks_both_ways(data_format: DataFormat) -> None:
     reading = Reading(None, Unit.VOLT, Status.DISABLED)

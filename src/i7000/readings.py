@@ -199,7 +199,8 @@ def decode_field(field: str, type_code: TypeCode, data_format: DataFormat, *, le
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:
     """Write one channel's field of a DCON report, to the nearest count.
 
-    Special: with `legacy` (`Profile.legacy_sentinels`) out of range is ``+9999`` and ``-0000`` in every format.
+    Special: with `legacy` (`Profile.legacy_sentinels`) out of range is ``+9999`` and ``-0000`` in every format. Zero is
+        written with a plus, also where something negative is rounded to it.
     Errors: `EncodeError` for a value that is not finite, of another unit, or beyond the span of the type (in hex:
         beyond what its words hold, see `encode_word`), and for a value beside a status that has none.
     Manual: 1.11; E48, E49, E50.
@@ -222,9 +223,10 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat,
     else:
         value, low, high, decimals = *(_percent(v, type_code) for v in (value, type_code.minimum, type_code.maximum)), 2
     text = f"{value:+0{_TEXT_WIDTH}.{decimals}f}"
-    if not round(low, decimals) <= float(text) <= round(high, decimals):
+    number = float(text)
+    if not round(low, decimals) <= number <= round(high, decimals):
         raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
-    return text
+    return text if number else text.replace("-", "+")
 
 
 def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFormat) -> tuple[Reading, ...]:

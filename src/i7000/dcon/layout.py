@@ -139,7 +139,7 @@ def _temperature(notation: str) -> Part:
         return number and -9999.9 <= value <= 9999.9 and round(value, 1) == value
 
     return Part(
-        notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{}", accepts, parse, Fault.NUMBER, 7
+        notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{} + 0.0", accepts, parse, Fault.NUMBER, 7
     )  # fmt: skip
 
 
