@@ -1,10 +1,11 @@
 """Frames in what a line delivers: all of them, whatever is around them and however it arrives."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import pytest
 
-from i7000 import DecodeError, Fault, Model, Noise, Profile
+from i7000 import DecodeError, Fault, Model, Noise, Profile, modbus
 from i7000.modbus import LONGEST_FRAME, Side, drop_echo, flush, seal, split
 from tests.spec.lint import vectors
 
@@ -78,8 +79,9 @@ def test_every_beginning_of_a_frame_waits_for_its_end(side: Side) -> None:
     for frame in STREAMS[side]:
         for cut in range(len(frame)):
             assert ((), frame[:cut]) == split(frame[:cut], side, PROFILE)
-            assert together([Noise(frame[:cut], Fault.LENGTH)] * bool(cut)) == together(
-                flush(frame[:cut], side, PROFILE)
+            assert (
+                b"".join(it if isinstance(it, bytes) else it.wire for it in flush(frame[:cut], side, PROFILE))
+                == (frame[:cut])
             )
 
 
@@ -147,8 +149,8 @@ MANY_WORDS = sealed("0103fa" + "1234" * 125)
         ("f8" * 4, Side.BOTH, ["address f8f8f8f8"], ""),
         ("0107" + END, Side.BOTH, [f"function 0107{END}"], ""),
         ("014603" + END, Side.BOTH, [f"sub_function 014603{END}"], ""),
-        ("018407" + END, Side.BOTH, [f"value 018407{END}"], ""),
-        ("018400" + END, Side.BOTH, [f"value 018400{END}"], ""),
+        ("018407" + END, Side.BOTH, [f"crc 018407{END}"], ""),
+        ("018400" + END, Side.BOTH, [f"crc 018400{END}"], ""),
         ("0103fc" + END, Side.RESPONSES, [f"count 0103fc{END}"], ""),
         ("010303" + END, Side.RESPONSES, [f"count 010303{END}"], ""),
         ("010300" + END, Side.RESPONSES, [f"count 010300{END}"], ""),
@@ -174,7 +176,9 @@ def test_a_stream_is_split_as_it_should_be(stream: str, side: Side, events: list
 def test_without_a_profile_the_crc_tells_how_long_a_mask_is(side: Side, size: int) -> None:
     masks = [bytes.fromhex(it) for it in (MASK_24, MASK_8, MASK_16, MASK_24, MASK_16, MASK_8)]
 
-    assert ([("frame", mask) for mask in masks], b"") == fed(b"".join(masks), size, side)
+    events, rest = fed(b"".join(masks), size, side)
+
+    assert [("frame", mask) for mask in masks] == [*events, *together(flush(rest, side))]
 
 
 @pytest.mark.parametrize(
@@ -235,7 +239,7 @@ def test_an_echo_is_taken_off_as_it_comes_in() -> None:
     sent, answer = bytes.fromhex(READ), bytes.fromhex(ANSWER)
 
     for length in range(len(sent) + 1):
-        assert drop_echo(sent[:length], sent) == b""
+        assert drop_echo(sent[:length], sent) == (None if length < len(sent) else b"")
     for length in range(len(answer) + 1):
         assert answer[:length] == drop_echo(sent + answer[:length], sent)
 
@@ -249,3 +253,57 @@ def test_what_is_no_echo_is_told_where_it_differs(at: int) -> None:
         drop_echo(received, sent)
 
     assert (Fault.ECHO, at, received) == (caught.value.fault, caught.value.offset, caught.value.wire)
+
+
+# --- several lengths --------------------------------------------------------------------------------------------------
+
+LONGER = ["014625013b5d00", "5701010300010000"]
+"""Frames whose beginning has a good CRC and the length of another frame."""
+
+
+@pytest.mark.parametrize("size", [1, 3, 1 << 20])
+@pytest.mark.parametrize("frame", [bytes.fromhex(it) for it in LONGER], ids=LONGER)
+def test_a_frame_that_begins_like_a_shorter_one_is_whole(frame: bytes, size: int) -> None:
+    events, rest = fed(frame + NOISE * 40, size, Side.BOTH)
+
+    assert [("frame", frame), ("noise", NOISE * 40)] == [*events, *together(flush(rest))]
+
+
+def test_every_mask_is_found_with_its_profile_and_without() -> None:
+    profile = Profile(Model.M_7019Z)
+    for mask in range(1 << 10):
+        frame = modbus.encode(modbus.ChannelMask(0x01, mask), profile)
+
+        assert ((frame,), b"") == split(frame, Side.RESPONSES, profile)
+        assert (frame,) == flush(frame, Side.RESPONSES)
+
+
+@pytest.mark.parametrize("function", [0x11, 0x91])
+def test_a_whole_frame_of_an_unknown_function_is_one_at_the_silence(function: int) -> None:
+    frame = seal(bytes((0x01, function)))
+
+    assert (frame,) == flush(frame)
+
+
+# --- the open request -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("request_", "answer", "others"),
+    [
+        (modbus.ReadInputRegisters(0x01, 0, 2), "01040400010002", ["01040200ff", "02040400010002", "01030400010002"]),
+        (modbus.ReadCoils(0x01, 0, 9), "01010201ff", ["010101ff"]),
+        (modbus.ReadInputRegisters(0x01, 0, 2), "018402", ["018302", "028402"]),
+        (modbus.ReadChannelMask(0x01), "014625ff", ["014629ff"]),
+        (modbus.WriteSingleCoil(0x01, 1, True), "01050001ff00", ["01060001ff00"]),
+    ],
+)
+def test_only_what_can_answer_the_open_request_is_a_frame(request_: Any, answer: str, others: list[str]) -> None:
+    profile = Profile(Model.M_7017)
+    good = seal(bytes.fromhex(answer))
+
+    for other in map(seal, map(bytes.fromhex, others)):
+        frames, rest = split(other + good, Side.RESPONSES, profile, request=request_)
+
+        assert (good,) == tuple(it for it in (*frames, *flush(rest, request=request_)) if isinstance(it, bytes))
+    assert ((good,), b"") == split(good, Side.RESPONSES, profile, request=request_)

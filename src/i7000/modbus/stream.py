@@ -1,20 +1,22 @@
 """Frames in what a line delivers: requests, responses, or both as a tapped bus has them (manual 3).
 
 Laws: `split` never raises and never loses a byte; it finds every good frame whatever noise is around it, and the same
-frames and noise however they arrive; what it keeps is shorter than a frame. A frame is what has the length that its
-function says and a good CRC: where several lengths are possible, the shortest with a good CRC.
+frames and bytes of noise between them however they arrive; what it keeps is shorter than a frame. A frame is what has
+the length that its function says and a good CRC. Where several lengths are possible, it is the longest with a good CRC:
+a 00 after a frame leaves the CRC good, so a shorter would hide a longer. Profile and open request leave but one length.
 """
 
 from enum import StrEnum
 from functools import cache
+from typing import Any
 
 from attrs import frozen
 
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
-from i7000.modbus.frame import LONGEST_FRAME, crc16
+from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16
 from i7000.modbus.layout import Layout
-from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, MODULE_SETTINGS, ExceptionCode
+from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, MODULE_SETTINGS, Request
 from i7000.profile import Profile
 
 __all__ = ["Side", "drop_echo", "flush", "split"]
@@ -23,6 +25,7 @@ _CRC = 2
 _LAST_ADDRESS = 247
 _EXCEPTION_LENGTH = 5
 _MASK_BYTES = (1, 2, 3)
+_MODULES = range(1, _LAST_ADDRESS + 1)
 
 
 class Side(StrEnum):
@@ -58,10 +61,14 @@ def _rules_of(layout: Layout, mask_bytes: tuple[int, ...], *, broadcast: bool) -
     return (Rule(length, broadcast=broadcast),)
 
 
+Rules = dict[tuple[int, int | None], tuple[Rule, ...]]
+"""By function and sub-function."""
+
+
 @cache
-def _rules(side: Side, mask_bytes: tuple[int, ...]) -> dict[tuple[int, int | None], tuple[Rule, ...]]:
-    """The rules of a side, by function and sub-function."""
-    rules: dict[tuple[int, int | None], tuple[Rule, ...]] = {}
+def _rules(side: Side, mask_bytes: tuple[int, ...]) -> Rules:
+    """The rules of a side."""
+    rules: Rules = {}
     for request in REQUESTS:
         key = (request.function, request.sub_function)
         found: tuple[Rule, ...] = ()
@@ -72,6 +79,18 @@ def _rules(side: Side, mask_bytes: tuple[int, ...]) -> dict[tuple[int, int | Non
             rules[request.function | EXCEPTION_BIT, None] = (Rule(_EXCEPTION_LENGTH),)
         rules[key] = tuple(dict.fromkeys(found))
     return rules
+
+
+def _rules_of_answer(request: Request[Any], mask_bytes: tuple[int, ...]) -> Rules:
+    """The rules of what can answer a request."""
+    count = getattr(request, "count", None)
+    rules = _rules_of(request.response.layout, mask_bytes, broadcast=False)
+    if count is not None and rules[0].count_at:
+        rules = (Rule(rules[0].length + (2 * count if rules[0].step > 1 else count + 7 >> 3)),)
+    return {
+        (request.function, request.sub_function): rules,
+        (request.function | EXCEPTION_BIT, None): (Rule(_EXCEPTION_LENGTH),),
+    }
 
 
 _MISSING = 256
@@ -89,10 +108,10 @@ def _starts(side: Side) -> Starts:
         row: list[tuple[int, ...] | None] = []
         for third in range(256):
             start = bytes((1, function, third))
-            lengths, _ = _lengths(start, 0, rules)
-            known = lengths != _MORE_IS_NEEDED and lengths == _lengths(start, 0, others)[0]
+            lengths, _ = _lengths(start, 0, rules, _MODULES)
+            known = lengths != _MORE_IS_NEEDED and lengths == _lengths(start, 0, others, _MODULES)[0]
             row.append(lengths if known else None)
-        table[function] = [*row, _lengths(bytes((1, function)), 0, rules)[0]]
+        table[function] = [*row, _lengths(bytes((1, function)), 0, rules, _MODULES)[0]]
     return table
 
 
@@ -107,72 +126,73 @@ _BY_START = _Sides()
 
 
 def split(
-    buffer: bytes, side: Side = Side.BOTH, profile: Profile | None = None
+    buffer: bytes, side: Side = Side.BOTH, profile: Profile | None = None, *, request: Request[Any] | None = None
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
     """Split what a line delivered into whole frames, noise and the rest that may still become a frame.
 
-    Shape: the rest is shorter than `LONGEST_FRAME`; call again with the rest and what came next.
-    Special: with a profile, channel masks have the length of its model; without, the CRC decides. A frame that is not
-        finished holds back what follows it: when the line has been silent for 3.5 characters, `flush` the rest.
+    Shape: the rest is shorter than `LONGEST_FRAME`; call again with the rest and what came next. Any chunking gives the
+        same frames, and the same bytes of noise between them.
+    Special: with a profile, channel masks have the length of its model; with the open `request`, nothing is a frame but
+        what can answer it. A frame that is not finished holds back what follows it, and so does one that could be
+        longer: when the line has been silent for 3.5 characters, `flush` the rest.
     Manual: 3; E61.
     """
     size = len(buffer)
-    if size and 0 < buffer[0] <= _LAST_ADDRESS:
+    if request is None and size and 0 < buffer[0] <= _LAST_ADDRESS:
         function = buffer[1] if size > 1 else _MISSING
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
-    return _scan(buffer, side, profile, final=False)
+    return _scan(buffer, side, profile, request, final=False)
 
 
-def flush(rest: bytes, side: Side = Side.BOTH, profile: Profile | None = None) -> tuple[bytes | Noise, ...]:
-    """Split a rest after which nothing came: what is not finished is noise."""
-    return _scan(rest, side, profile, final=True)[0]
+def flush(
+    rest: bytes, side: Side = Side.BOTH, profile: Profile | None = None, *, request: Request[Any] | None = None
+) -> tuple[bytes | Noise, ...]:
+    """Split a rest after which nothing came: what is not finished is noise.
+
+    Special: with the silence for a mark, a frame of an unknown function is one too, if it is all that is left: a module
+        answers it with an exception.
+    """
+    return _scan(rest, side, profile, request, final=True)[0]
 
 
-def drop_echo(received: bytes, sent: bytes) -> bytes:
-    """Take off the local echo that 2-wire adapters give of what was sent; empty while the echo is still coming in.
+def drop_echo(received: bytes, sent: bytes) -> bytes | None:
+    """Take off the local echo that 2-wire adapters give of what was sent; None while the echo is still coming in.
 
     Errors: `DecodeError` with `Fault.ECHO` where something else came.
     """
     for at, (byte, expected) in enumerate(zip(received, sent, strict=False)):
         if byte != expected:
             raise DecodeError(Fault.ECHO, received, at, allowed=sent.hex(" "), section="3")
-    return received[len(sent) :]
+    return received[len(sent) :] if len(received) >= len(sent) else None
 
 
-def _scan(  # noqa: C901 - one loop
-    buffer: bytes, side: Side, profile: Profile | None, *, final: bool
+def _scan(
+    buffer: bytes, side: Side, profile: Profile | None, request: Request[Any] | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
-    rules = _rules(side, _MASK_BYTES if profile is None else (profile.mask_digits // 2,))
-    by_start = _BY_START[side]
+    mask_bytes = _MASK_BYTES if profile is None else (profile.mask_digits // 2,)
+    rules = _rules(side, mask_bytes) if request is None else _rules_of_answer(request, mask_bytes)
+    addresses = _MODULES if request is None else range(request.address, request.address + 1)
+    by_start = _BY_START[side] if request is None else None
     found: list[bytes | Noise] = []
     size = len(buffer)
     at = noise_at = 0
     fault = Fault.LENGTH
     while at < size:
         known = None
-        if at + 2 < size and 0 < buffer[at] <= _LAST_ADDRESS:
+        if by_start is not None and at + 2 < size and buffer[at] in addresses:
             known = by_start[buffer[at + 1]][buffer[at + 2]]
         if known == () and noise_at < at:
             at += 1
             continue
-        lengths, wrong = (known, Fault.CRC) if known else _lengths(buffer, at, rules)
-        end = 0
-        for length in lengths:
-            if at + length > size:
-                if final:
-                    continue
-                end = -1
-                break
-            if not crc16(buffer[at : at + length]):
-                end = at + length
-                break
-        if end < 0:
+        lengths, wrong = (known, Fault.CRC) if known else _lengths(buffer, at, rules, addresses)
+        end = _end(buffer, at, lengths, final=final)
+        if end is None:
             break
         if noise_at == at:
             fault = wrong
-        if not end:
+        if end == at:
             at += 1
             continue
         if noise_at < at:
@@ -184,16 +204,30 @@ def _scan(  # noqa: C901 - one loop
     return tuple(found), buffer[at:]
 
 
+def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> int | None:
+    """Where the frame that begins here ends: here if there is none; None if that is not known yet."""
+    for length in lengths:
+        if at + length <= len(buffer):
+            if not crc16(buffer[at : at + length]):
+                return at + length
+        elif not final:
+            return None
+    return len(buffer) if final and _is_whole(buffer[at:]) else at
+
+
+def _is_whole(frame: bytes) -> bool:
+    return SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME and frame[0] <= _LAST_ADDRESS and not crc16(frame)
+
+
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)
-_EXCEPTION_CODES = frozenset(ExceptionCode)
 
 
-def _lengths(  # noqa: C901, PLR0911, PLR0912 - a list of what is looked at, byte after byte
-    buffer: bytes, at: int, rules: dict[tuple[int, int | None], tuple[Rule, ...]]
+def _lengths(  # noqa: C901 - a list of what is looked at, byte after byte
+    buffer: bytes, at: int, rules: Rules, addresses: range
 ) -> tuple[tuple[int, ...], Fault]:
-    """Tell the lengths that a frame beginning here can have, the shortest first, and what is wrong if it is none."""
+    """Tell the lengths that a frame beginning here can have, the longest first, and what is wrong if it is none."""
     address = buffer[at]
-    if address > _LAST_ADDRESS:
+    if address not in addresses and address != BROADCAST:
         return (), Fault.ADDRESS
     left = len(buffer) - at
     if left < len("af"):
@@ -206,11 +240,6 @@ def _lengths(  # noqa: C901, PLR0911, PLR0912 - a list of what is looked at, byt
         possible = rules.get((function, buffer[at + 2]), ())
     if not possible:
         return (), Fault.SUB_FUNCTION if function == MODULE_SETTINGS else Fault.FUNCTION
-    if function & EXCEPTION_BIT:
-        if left < len("afe"):
-            return _MORE_IS_NEEDED, Fault.LENGTH
-        if buffer[at + 2] not in _EXCEPTION_CODES:
-            return (), Fault.VALUE
     lengths = []
     for rule in possible:
         if address == BROADCAST and not rule.broadcast:
@@ -224,4 +253,4 @@ def _lengths(  # noqa: C901, PLR0911, PLR0912 - a list of what is looked at, byt
             if not count or count % rule.step or length > LONGEST_FRAME:
                 continue
         lengths.append(length)
-    return tuple(sorted(lengths)), Fault.CRC if lengths else Fault.COUNT
+    return tuple(sorted(lengths, reverse=True)), Fault.CRC if lengths else Fault.COUNT
