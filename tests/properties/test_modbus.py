@@ -317,6 +317,19 @@ def test_other_items_than_were_asked_for_are_refused(data: st.DataObject) -> Non
     assert caught.value.fault is Fault.COUNT
 
 
+@given(st.integers(1, 2000).filter(lambda count: count % 8), st.sampled_from(READS[:2]), st.data())
+def test_spare_bits_that_are_set_are_refused(count: int, asked: Any, data: st.DataObject) -> None:
+    profile = data.draw(profiles())
+    request = asked(1, 0, count)
+    body = modbus.encode(request.response(1, (False,) * count))[:-2]
+    spare = 1 << data.draw(st.integers(count % 8, 7))
+
+    with pytest.raises(DecodeError) as caught:
+        modbus.decode_response(modbus.seal(body[:-1] + bytes((spare,))), request, profile)
+
+    assert caught.value.fault is Fault.RESERVED
+
+
 @given(st.data())
 def test_the_answer_to_another_write_is_refused(data: st.DataObject) -> None:
     profile = data.draw(profiles_with(modbus.WriteSingleCoil))

@@ -5,6 +5,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from i7000 import DecodeError, Fault, Noise, Profile, modbus
+from i7000.modbus import Side
 from i7000.strategies.modbus import DAMAGES, Exchange, Stream, chunkings, exchanges, frames, profiles, streams
 
 # --- what the CRC notices, and what it cannot -------------------------------------------------------------------------
@@ -124,7 +125,7 @@ def test_a_body_that_is_sealed_is_unsealed_if_it_has_the_length_of_a_frame(body:
 Events = list[bytes | Noise]
 
 
-def split(pieces: tuple[bytes, ...], side: modbus.Side, profile: Profile | None) -> tuple[Events, bytes]:
+def split(pieces: tuple[bytes, ...], side: Side, profile: Profile | None) -> tuple[Events, bytes]:
     """What is found in a stream that arrives in pieces; each rest is shorter than a frame."""
     found: Events = []
     rest = b""
@@ -135,7 +136,7 @@ def split(pieces: tuple[bytes, ...], side: modbus.Side, profile: Profile | None)
     return found, rest
 
 
-def split_to_the_end(pieces: tuple[bytes, ...], side: modbus.Side, profile: Profile | None) -> Events:
+def split_to_the_end(pieces: tuple[bytes, ...], side: Side, profile: Profile | None) -> Events:
     """What is found in a stream after which the line falls silent."""
     found, rest = split(pieces, side, profile)
     return [*found, *modbus.flush(rest, side, profile)]
@@ -161,7 +162,7 @@ def chopped(wires: st.SearchStrategy[bytes]) -> st.SearchStrategy[tuple[bytes, t
     return wires.flatmap(lambda wire: st.tuples(st.just(wire), chunkings(wire)))
 
 
-SIDES = st.sampled_from(modbus.Side)
+SIDES = st.sampled_from(Side)
 LIKELY = st.sampled_from((0x00, 0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10, 0x46, 0x83, 0xC6, 0xFF))
 MANY_BYTES = st.binary(max_size=1000) | st.lists(
     st.binary(max_size=4) | st.lists(LIKELY, max_size=12).map(bytes) | frames(), max_size=12
@@ -181,9 +182,9 @@ def test_however_a_stream_arrives_the_same_is_found(case: tuple[Stream, tuple[by
     assert stream.events == runs(split_to_the_end(pieces, stream.side, stream.profile))
 
 
-@pytest.mark.parametrize("side", modbus.Side)
+@pytest.mark.parametrize("side", Side)
 @given(st.data())
-def test_a_stream_of_frames_alone_is_split_at_once(side: modbus.Side, data: st.DataObject) -> None:
+def test_a_stream_of_frames_alone_is_split_at_once(side: Side, data: st.DataObject) -> None:
     stream = data.draw(streams(side))
     found = [event for event in stream.events if isinstance(event, bytes)]
 
@@ -192,7 +193,7 @@ def test_a_stream_of_frames_alone_is_split_at_once(side: modbus.Side, data: st.D
 
 @given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
 def test_no_byte_of_a_stream_is_lost(
-    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
+    case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None
 ) -> None:
     wire, pieces = case
 
@@ -204,7 +205,7 @@ def test_no_byte_of_a_stream_is_lost(
 
 @given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
 def test_any_bytes_are_split_the_same_however_they_arrive(
-    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
+    case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None
 ) -> None:
     wire, pieces = case
     one_by_one = tuple(wire[at : at + 1] for at in range(len(wire)))
@@ -218,9 +219,7 @@ def test_any_bytes_are_split_the_same_however_they_arrive(
 
 
 @given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
-def test_what_is_found_is_a_frame(
-    case: tuple[bytes, tuple[bytes, ...]], side: modbus.Side, profile: Profile | None
-) -> None:
+def test_what_is_found_is_a_frame(case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None) -> None:
     for event in split_to_the_end(case[1], side, profile):
         if isinstance(event, bytes):
             assert event[:-2] == modbus.unseal(event)
@@ -229,7 +228,7 @@ def test_what_is_found_is_a_frame(
 
 
 @given(st.data(), SIDES)
-def test_a_frame_without_its_end_is_kept_for_later(data: st.DataObject, side: modbus.Side) -> None:
+def test_a_frame_without_its_end_is_kept_for_later(data: st.DataObject, side: Side) -> None:
     profile = data.draw(profiles())
     frame = data.draw(frames(side, profile))
     end = data.draw(st.integers(0, len(frame) - 1))
@@ -237,6 +236,18 @@ def test_a_frame_without_its_end_is_kept_for_later(data: st.DataObject, side: mo
 
     assert modbus.split(frame[:end], side, profile) == ((), frame[:end])
     assert modbus.split(frame, side, profile) == ((frame,), b"")
+
+
+@given(st.binary(min_size=2, max_size=2), st.integers(1, 247), st.sampled_from((0x03, 0x04)))
+def test_of_a_response_and_a_request_that_begin_alike_the_shorter_is_found(
+    word: bytes, address: int, function: int
+) -> None:
+    response = modbus.seal(bytes((address, function, 2)) + word)
+    request = response + b"\0"  # of which the CRC is good too
+
+    assert request[:-2] == modbus.unseal(request)
+    assert modbus.split(request) == ((response,), b"\0")
+    assert modbus.split(request, Side.REQUESTS) == ((request,), b"")
 
 
 @given(exchanges(), st.binary(max_size=8))
