@@ -4,6 +4,7 @@ Laws: every byte survives: a code that the manual does not define stays a number
 module would take it is the business of the encoder, which knows the model.
 """
 
+from collections.abc import Iterable
 from enum import Enum, IntEnum
 from typing import Self
 
@@ -21,6 +22,8 @@ __all__ = [
     "ModbusDataFormat",
     "Protocol",
     "ReportSettings",
+    "channels_of",
+    "mask_of",
 ]
 
 _BYTE = 0xFF
@@ -207,3 +210,35 @@ class ReportSettings:
     def byte(self) -> int:
         """FF itself."""
         return self.filter.value << 7 | self.checksum << 6 | self.fast_mode << 5 | self.reserved << 2 | self.data_format
+
+
+def channels_of(mask: int) -> frozenset[int]:
+    """List the channels of a mask.
+
+    Errors: `EncodeError` for a negative number.
+
+    >>> sorted(channels_of(0x3A))
+    [1, 3, 4, 5]
+    """
+    if mask < 0:
+        raise EncodeError("mask", mask, "0 or more", "2.13")
+    return frozenset(channel for channel in range(mask.bit_length()) if mask >> channel & 1)
+
+
+def mask_of(channels: Iterable[int]) -> int:
+    """Make the mask of a set of channels, channel 0 the lowest bit.
+
+    Errors: `EncodeError` for what is no channel of any module.
+
+    >>> f"{mask_of({1, 3, 4, 5}):02X}"
+    '3A'
+    """
+    mask = 0
+    for channel in channels:
+        if not isinstance(channel, int) or not 0 <= channel < _MOST_CHANNELS:
+            raise EncodeError("channel", channel, f"0..{_MOST_CHANNELS - 1}", "2.13")
+        mask |= 1 << channel
+    return mask
+
+
+_MOST_CHANNELS = 20

@@ -11,6 +11,7 @@ from i7000 import (
     DecodeError,
     EncodeError,
     Fault,
+    Filter,
     Firmware,
     LineSettings,
     Model,
@@ -167,7 +168,7 @@ def test_what_is_not_for_all_modules_needs_an_address(message: Any) -> None:
         (modbus.ReadCoils, (1, 0x10000, 1), "start"),
         (modbus.ReadCoils, (1, 0, 0), "count"),
         (modbus.ReadCoils, (1, 0, 2001), "count"),
-        (modbus.ReadCoils, (1, 0xFFFF, 2), "start"),
+        (modbus.ReadCoils, (1, 0xFFFF, 2), "count"),
         (modbus.ReadDiscreteInputs, (1, 0, 2001), "count"),
         (modbus.ReadHoldingRegisters, (1, 0, 126), "count"),
         (modbus.ReadInputRegisters, (1, 0, 126), "count"),
@@ -178,17 +179,17 @@ def test_what_is_not_for_all_modules_needs_an_address(message: Any) -> None:
         (modbus.WriteMultipleCoils, (1, 0, ()), "values"),
         (modbus.WriteMultipleCoils, (1, 0, (1,)), "values"),
         (modbus.WriteMultipleCoils, (1, 0, (True,) * 1969), "values"),
-        (modbus.WriteMultipleCoils, (1, 0xFFFF, (True, True)), "start"),
+        (modbus.WriteMultipleCoils, (1, 0xFFFF, (True, True)), "count"),
         (modbus.WriteMultipleRegisters, (1, 0, [1]), "values"),
         (modbus.WriteMultipleRegisters, (1, 0, (True,)), "values"),
         (modbus.WriteMultipleRegisters, (1, 0, (0x10000,)), "values"),
         (modbus.WriteMultipleRegisters, (1, 0, (0,) * 124), "values"),
-        (modbus.WriteMultipleRegisters, (1, 0xFFFF, (0, 0)), "start"),
+        (modbus.WriteMultipleRegisters, (1, 0xFFFF, (0, 0)), "count"),
         (modbus.Coils, (1, (True,) * 2001), "values"),
         (modbus.InputRegisters, (1, (0,) * 126), "values"),
         (modbus.MultipleCoilsWritten, (1, 0, 1969), "count"),
         (modbus.MultipleRegistersWritten, (1, 0, 124), "count"),
-        (modbus.MultipleRegistersWritten, (1, 0xFFFF, 2), "start"),
+        (modbus.MultipleRegistersWritten, (1, 0xFFFF, 2), "count"),
         (modbus.ModuleName, (1, b"\x00\x70\x17"), "name"),
         (modbus.ModuleName, (1, "00701700"), "name"),
         (modbus.SetCommunicationSettings, (1, 6, Protocol.DCON), "line_settings"),
@@ -368,3 +369,35 @@ def test_coded_settings_are_members_of_their_enumerations() -> None:
 
     assert isinstance(told, modbus.CjcUpdateSetting)
     assert told.update is CjcUpdate.ONCE
+
+
+# --- what a setting means ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("request_", "body", "profile"),
+    [
+        (modbus.ReadMiscellaneousSettings(0x01), "0146295f", Profile(Model.M_7017R)),
+        (modbus.ReadChannelMask(0x01), "01462507ff", Profile(Model.M_7017Z)),
+        (modbus.ReadCjcOffset(0x01, 0x80), "01462b0100", Profile(Model.M_7018)),
+    ],
+)
+def test_reserved_bits_of_an_answer_are_refused(request_: Any, body: str, profile: Profile) -> None:
+    with pytest.raises(DecodeError) as caught:
+        modbus.decode_response(modbus.seal(bytes.fromhex(body)), request_, profile)
+
+    assert (caught.value.fault, caught.value.offset) == (Fault.RESERVED, 3)
+
+
+def test_an_offset_is_in_hundredths_for_the_module_and_in_tenths_for_a_channel() -> None:
+    module, channel = modbus.ReadCjcOffset(0x01, 0), modbus.ReadCjcOffset(0x01, 0x87)
+
+    assert (modbus.CjcOffset(0x01, -16).celsius(module), modbus.CjcOffset(0x01, 0xFF).celsius(channel)) == (-0.16, -0.1)
+    assert (modbus.SetCjcOffset(0x01, 0, 255).celsius, modbus.SetCjcOffset(0x01, 0x80, 127).celsius) == (2.55, 12.7)
+
+
+def test_miscellaneous_settings_are_filter_and_fast_mode() -> None:
+    told = modbus.MiscellaneousSettings(0x01, 0xA0)
+
+    assert (told.filter, told.fast_mode) == (Filter.REJECT_50_HZ, True)
+    assert Filter.REJECT_60_HZ is modbus.MiscellaneousSettings(0x01, 0x20).filter

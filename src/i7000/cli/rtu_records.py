@@ -14,6 +14,7 @@ from i7000.cli.records import Record, empty_record, message_fields
 from i7000.cli.registers import Cell, cells
 from i7000.cli.rtu import Listener, Meaning, profiles
 from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
+from i7000.modbus.cold_junction import offset_in_celsius
 from i7000.models import AVAILABILITY
 
 __all__ = ["line_records", "meaning_record", "request_record"]
@@ -170,9 +171,7 @@ def _offset(channel: int | None, offset: int) -> str:
     """Tell a CJC offset: that of the module has other counts than that of a channel."""
     if channel is None:
         return f"{offset}, {offset / 100:+.2f} degC if it is the module's"
-    if not channel:
-        return f"{offset / 100:+.2f} degC"
-    return f"{((offset & 0xFF) - ((offset & 0x80) << 1)) / 10:+.1f} degC"
+    return f"{offset_in_celsius(channel, offset):+.{1 if channel else 2}f} degC"
 
 
 def _exception(code: int) -> str:

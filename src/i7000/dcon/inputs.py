@@ -6,8 +6,6 @@ Laws: a response keeps the field of each channel as it was sent, so that channel
 mean is told by `i7000.dcon.readings`.
 """
 
-from collections.abc import Iterable
-
 from attrs import field, frozen
 
 from i7000.dcon import layout
@@ -15,7 +13,7 @@ from i7000.dcon.command import Acknowledged, Command, Message, Response, check_c
 from i7000.errors import EncodeError
 from i7000.profile import Profile
 from i7000.readings import is_field
-from i7000.settings import DataFormat
+from i7000.settings import DataFormat, channels_of, mask_of
 
 __all__ = [
     "AnalogInput",
@@ -35,38 +33,6 @@ __all__ = [
     "channels_of",
     "mask_of",
 ]
-
-
-def channels_of(mask: int) -> frozenset[int]:
-    """List the channels of a mask.
-
-    Errors: `EncodeError` for a negative number.
-
-    >>> sorted(channels_of(0x3A))
-    [1, 3, 4, 5]
-    """
-    if mask < 0:
-        raise EncodeError("mask", mask, "0 or more", "2.13")
-    return frozenset(channel for channel in range(mask.bit_length()) if mask >> channel & 1)
-
-
-def mask_of(channels: Iterable[int]) -> int:
-    """Make the mask of a set of channels, channel 0 the lowest bit.
-
-    Errors: `EncodeError` for what is no channel of any module.
-
-    >>> f"{mask_of({1, 3, 4, 5}):02X}"
-    '3A'
-    """
-    mask = 0
-    for channel in channels:
-        if not isinstance(channel, int) or not 0 <= channel < _MOST_CHANNELS:
-            raise EncodeError("channel", channel, f"0..{_MOST_CHANNELS - 1}", "2.13")
-        mask |= 1 << channel
-    return mask
-
-
-_MOST_CHANNELS = 20
 
 
 def check_values(message: Message, values: tuple[str, ...], data_format: DataFormat, profile: Profile) -> None:

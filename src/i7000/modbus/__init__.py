@@ -17,6 +17,8 @@ from i7000.modbus.channel_settings import (
     SetTypeCode,
     TypeCodeResult,
     TypeCodeSetting,
+    channels_of,
+    mask_of,
 )
 from i7000.modbus.codec import (
     REQUESTS,
@@ -179,6 +181,7 @@ __all__ = [
     "WriteMultipleRegisters",
     "WriteSingleCoil",
     "WriteSingleRegister",
+    "channels_of",
     "crc16",
     "decode_request",
     "decode_response",
@@ -186,6 +189,7 @@ __all__ = [
     "encode",
     "flush",
     "is_answered",
+    "mask_of",
     "readings",
     "seal",
     "split",

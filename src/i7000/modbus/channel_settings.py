@@ -9,6 +9,7 @@ from i7000.errors import EncodeError
 from i7000.modbus import layout
 from i7000.modbus.request import Message, Request, Response, SettingResult
 from i7000.profile import Profile
+from i7000.settings import Filter, channels_of, mask_of
 
 __all__ = [
     "ChannelMask",
@@ -23,7 +24,11 @@ __all__ = [
     "SetTypeCode",
     "TypeCodeResult",
     "TypeCodeSetting",
+    "channels_of",
+    "mask_of",
 ]
+
+FILTER_BIT, FAST_MODE_BIT = 0x80, 0x20
 
 
 def check_channel(sent: Message, channel: int, profile: Profile) -> None:
@@ -125,6 +130,10 @@ class ChannelMask(Response):
 
     mask: layout.Mask
 
+    def reserved_bits(self, request: "ReadChannelMask", profile: Profile) -> int:  # noqa: ARG002 - of the module
+        """Tell the bits that should be zero and are not: of channels that the module does not have."""
+        return self.mask >> profile.channels
+
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
         check_mask(self, self.mask, profile)
@@ -190,6 +199,20 @@ class MiscellaneousSettings(Response):
 
     settings: layout.Byte
 
+    @property
+    def filter(self) -> Filter:
+        """The mains frequency that is rejected."""
+        return Filter(bool(self.settings & FILTER_BIT))
+
+    @property
+    def fast_mode(self) -> bool:
+        """Whether the module is in fast mode."""
+        return bool(self.settings & FAST_MODE_BIT)
+
+    def reserved_bits(self, request: "ReadMiscellaneousSettings", profile: Profile) -> int:  # noqa: ARG002 - of none
+        """Tell the bits that should be zero and are not."""
+        return self.settings & ~(FILTER_BIT | FAST_MODE_BIT)
+
 
 class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
     """Ask for filter and fast mode.
@@ -233,7 +256,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse bits that the module does not have."""
-        bits = 0x80 * profile.runs(profile.model.filter_from) | 0x20 * profile.model.fast_mode
+        bits = FILTER_BIT * profile.runs(profile.model.filter_from) | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(
                 "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section

@@ -180,7 +180,7 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
         raise _sub_function_error(frame, f"{request.sub_function:02X}")
     if request.broadcast:
         _check_echo(request, body, frame)
-    response: R = _held_against(request, _decode(request.response, body, frame, profile), frame)
+    response: R = _held_against(request, _decode(request.response, body, frame, profile), frame, profile)
     return response
 
 
@@ -212,8 +212,8 @@ _READS_OF_WORDS = (ReadHoldingRegisters, ReadInputRegisters)
 _READS_OF_BITS = (ReadCoils, ReadDiscreteInputs)
 
 
-def _held_against(request: Any, response: Any, frame: bytes) -> Any:  # noqa: ANN401 - of any class
-    """Hold the number of items against the request, and drop the spare bits of the last byte."""
+def _held_against(request: Any, response: Any, frame: bytes, profile: Profile) -> Any:  # noqa: ANN401 - of any class
+    """Hold the number of items against the request, look at the bits that are reserved, and drop those to spare."""
     if isinstance(request, _READS_OF_WORDS):
         if len(response.values) != request.count:
             raise _count_error(frame, 2 * request.count, request.section)
@@ -224,7 +224,13 @@ def _held_against(request: Any, response: Any, frame: bytes) -> Any:  # noqa: AN
             at, allowed = len(frame) - 3, "spare bits zero"
             raise DecodeError(Fault.RESERVED, frame, at, field="values", allowed=allowed, section=request.section)
         return evolve(response, values=response.values[: request.count])
+    elif request.sub_function in _WITH_RESERVED_BITS and response.reserved_bits(request, profile):
+        allowed = "reserved bits zero"
+        raise DecodeError(Fault.RESERVED, frame, 3, allowed=allowed, section=request.section)
     return response
+
+
+_WITH_RESERVED_BITS = (ReadChannelMask.sub_function, ReadMiscellaneousSettings.sub_function, ReadCjcOffset.sub_function)
 
 
 def _count_error(frame: bytes, count: int, section: str) -> DecodeError:

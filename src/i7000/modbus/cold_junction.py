@@ -31,6 +31,11 @@ FIRST_CHANNEL = 0x80
 """What channel 0 is where 0 is the module."""
 
 
+def offset_in_celsius(channel: int, offset: int) -> float:
+    """Tell what an offset is in degrees Celsius; `channel` is 0 for the module."""
+    return ((offset & 0xFF) - ((offset & 0x80) << 1)) / 10 if channel else offset / 100
+
+
 def check_offset_channel(sent: Message, channel: int, profile: Profile) -> None:
     """Refuse what is neither the module nor one of its channels."""
     if channel and not 0 <= channel - FIRST_CHANNEL < profile.channels:
@@ -52,6 +57,14 @@ class CjcOffset(Response):
     title = "CJC offset"
 
     offset: layout.SignedWord
+
+    def celsius(self, request: "ReadCjcOffset") -> float:
+        """Tell the offset in degrees Celsius, as the answer to `request`: of the module or of a channel."""
+        return offset_in_celsius(request.channel, self.offset)
+
+    def reserved_bits(self, request: "ReadCjcOffset", profile: Profile) -> int:  # noqa: ARG002 - of the channel
+        """Tell the bits that should be zero and are not: the high byte of the offset of a channel."""
+        return self.offset & 0xFF00 if request.channel else 0
 
 
 @frozen
@@ -105,6 +118,11 @@ class SetCjcOffset(Request[CjcOffsetResult]):
 
     channel: layout.Byte
     offset: layout.SignedWord
+
+    @property
+    def celsius(self) -> float:
+        """The offset in degrees Celsius."""
+        return offset_in_celsius(self.channel, self.offset)
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have, or an offset beyond its range."""

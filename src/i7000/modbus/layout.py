@@ -268,9 +268,8 @@ def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int)
         yield f"    {tail.name} = int.from_bytes(b[{size}:], 'big')"
     elif tail.form:
         yield from _counted(tail, size, "count" in names)
-    if "start" in names:
-        yield f"    if start + count > {_ADDRESSES}:"
-        yield f"        fail(b, Fault.RANGE, {places[names.index('count')]}, 'count', 'none beyond address 65535')"
+    if "start" in names and not tail.form:
+        yield from _beyond(places[names.index("count")])
     code = 3 if fixed[1].literal == _WITH_SUB_FUNCTIONS else 2
     for name, token, at in zip(names[code:], fixed[code:], places[code:], strict=True):
         if not token.name:
@@ -287,6 +286,12 @@ def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int)
     yield "    return m"
 
 
+def _beyond(at: int) -> Iterator[str]:
+    """Refuse a count of items, which stands at `at`, that leads beyond the last address."""
+    yield f"    if start + count > {_ADDRESSES}:"
+    yield f"        fail(b, Fault.RANGE, {at}, 'count', 'none beyond address 65535')"
+
+
 def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]:  # noqa: FBT001 - of our own
     """Read what follows the byte count, the last of `size` bytes; the count of items is before it, if there is one."""
     name, words = tail.name, tail.form == "words"
@@ -295,6 +300,7 @@ def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]: 
     if items_are_counted:
         yield f"    if not 1 <= count <= {MOST_WRITTEN_WORDS if words else MOST_WRITTEN_BITS}:"
         yield f"        fail(b, Fault.RANGE, {size - 3}, 'count', item_{name}.allowed)"
+        yield from _beyond(size - 3)
         yield f"    if bytes != {'2 * count' if words else 'count + 7 >> 3'}:"
         yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', 'as many as the items have')"
     else:
@@ -320,5 +326,5 @@ def _constructor(tail: Token, items: dict[str, Item], keywords: list[str]) -> It
         yield f"    if {plain}not accepts_{name}({name}): refuse({name!r}, {name}, item_{name}.allowed)"
     if "start" in items:
         count = "count" if "count" in items else f"len({tail.name})"
-        yield f"    if start + {count} > {_ADDRESSES}: refuse('start', start, 'none beyond address 65535')"
+        yield f"    if start + {count} > {_ADDRESSES}: refuse('count', {count}, 'none beyond address 65535')"
     yield from (f"    set_{name}(self, {name})" for name in items)
