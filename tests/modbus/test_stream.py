@@ -7,7 +7,8 @@ import pytest
 
 from i7000 import DecodeError, Fault, Model, Noise, Profile, modbus
 from i7000.modbus import LONGEST_FRAME, Side, drop_echo, flush, seal, split
-from tests.spec.lint import vectors
+from tests.spec.lint import Record, vectors
+from tests.vectors import parameters, profile_of
 
 
 def frames_of_vectors(side: str) -> list[bytes]:
@@ -166,6 +167,74 @@ def test_a_stream_is_split_as_it_should_be(stream: str, side: Side, events: list
     found, left = split(bytes.fromhex(stream), side)
 
     assert (events, rest) == ([shown(event) for event in found], left.hex())
+
+
+# --- vectors ----------------------------------------------------------------------------------------------------------
+
+NOT_YET = dict.fromkeys(
+    (
+        "exception-of-no-function",
+        "exception-among-requests",
+        "longest-write-unfinished",
+        "unfinished-after-a-frame",
+        "unfinished-nothing-inside",
+        "truncated-then-good",
+        "truncated-then-good-response",
+        "unknown-function-bad-crc-at-flush",
+    ),
+    "what is unfinished at a flush is told as crc, not length",
+)
+NOT_YET |= dict.fromkeys(
+    (
+        "broadcast-of-a-reading-function",
+        "response-of-address-0",
+        "request-with-crc-0000-as-response",
+        "mask-013b-of-eight-channels",
+    ),
+    "address 0 where no broadcast begins is told as count or function, and held back among responses",
+)
+NOT_YET |= dict.fromkeys(
+    ("unknown-function-at-flush", "unknown-sub-function-at-flush"),
+    "at a flush, an unknown function is not found behind noise",
+)
+"""Where `split` and `flush` differ from the vectors, and how."""
+
+
+def stream_vectors() -> list[object]:
+    cases = parameters("vectors/frames/rtu_split.json")
+    reasons = [NOT_YET.get(case.id.removeprefix("rtu-split-")) for case in cases]
+    return [
+        pytest.param(*case.values, id=case.id, marks=pytest.mark.xfail(strict=True, reason=reason) if reason else ())
+        for case, reason in zip(cases, reasons, strict=True)
+    ]
+
+
+def recorded(events: Iterable[bytes | Noise]) -> list[Record]:
+    """What was found as the vectors have it: adjacent noise put together, with the first fault."""
+    found: list[Record] = []
+    for event in events:
+        if isinstance(event, bytes):
+            found.append({"frame": event.hex()})
+        elif found and "noise" in found[-1]:
+            found[-1]["noise"] += event.wire.hex()
+        else:
+            found.append({"noise": event.wire.hex(), "fault": event.fault.value})
+    return found
+
+
+@pytest.mark.parametrize("vector", stream_vectors())
+def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record) -> None:
+    stream, side = bytes.fromhex(vector["stream"]), Side(vector["side"])
+    profile = None if vector["profile"] is None else profile_of(vector["profile"])
+
+    for size in (len(stream) or 1, 1):
+        events: list[bytes | Noise] = []
+        rest = b""
+        for at in range(0, len(stream), size):
+            found, rest = split(rest + stream[at : at + size], side, profile)
+            events += found
+        assert (vector["events"], vector["rest"]) == (recorded(events), rest.hex())
+        assert vector["flushed"] == recorded(flush(rest, side, profile))
 
 
 # --- masks ------------------------------------------------------------------------------------------------------------

@@ -29,6 +29,7 @@ SCHEMAS = {
     "vectors/readings/legacy.json": "legacy_vectors",
     "vectors/frames/checksums.json": "checksum_vectors",
     "vectors/frames/split.json": "split_vectors",
+    "vectors/frames/rtu_split.json": "rtu_split_vectors",
     "vectors/frames/crc.json": "crc_vectors",
 }
 """Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""

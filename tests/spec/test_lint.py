@@ -34,6 +34,7 @@ PREFIXES = {
     "legacy_vectors": "legacy",
     "checksum_vectors": "checksum",
     "split_vectors": "split",
+    "rtu_split_vectors": "rtu-split",
     "modbus_vectors": r"modbus-([0-9A-F]{2}|46-[0-9A-F]{2}|3\.4\.\d|frame)",
     "crc_vectors": "crc",
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import chain
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 import pytest
@@ -361,3 +361,51 @@ def test_a_crc_is_that_of_its_body() -> None:
     found = [vector for _, vector in lint.vectors("frames/crc.json")]
 
     assert [vector["id"] for vector in found if crc(bytes.fromhex(vector["body"])).hex() != vector["crc"]] == []
+
+
+# Streams
+
+STREAMS = [vector for _, vector in lint.vectors("frames/rtu_split.json")]
+
+
+def parts(events: list[Record]) -> list[str]:
+    return [event["frame"] if "frame" in event else event["noise"] for event in events]
+
+
+def test_a_stream_is_its_events_and_its_rest_and_the_rest_is_what_a_silence_gives() -> None:
+    for vector in STREAMS:
+        assert "".join(parts(vector["events"])) + vector["rest"] == vector["stream"], vector["id"]
+        assert "".join(parts(vector["flushed"])) == vector["rest"], vector["id"]
+
+
+def test_all_noise_between_two_frames_is_one_run() -> None:
+    for vector in STREAMS:
+        for events in (vector["events"], vector["flushed"]):
+            pairs = pairwise(events)
+            assert not any("noise" in first and "noise" in second for first, second in pairs), vector["id"]
+
+
+def test_a_frame_in_a_stream_has_a_right_crc() -> None:
+    for vector in STREAMS:
+        for event in vector["events"] + vector["flushed"]:
+            assert "noise" in event or (sealed(event["frame"]) and len(event["frame"]) <= 512), vector["id"]
+
+
+@pytest.mark.parametrize("side", ["requests", "responses", "both"])
+def test_the_streams_of_a_side_have_every_function_and_sub_function(side: str) -> None:
+    events = chain.from_iterable(vector["events"] + vector["flushed"] for vector in STREAMS if vector["side"] == side)
+    frames = [event["frame"].upper() for event in events if "frame" in event]
+    found = {frame[2:4] for frame in frames}
+    sub_functions = {frame[4:6] for frame in frames if frame[2:4] == "46"}
+    refused = {f"{int(code, 16) + 0x80:02X}" for code in FUNCTIONS if code != "+80"}
+
+    assert set(FUNCTIONS) - {"+80"} <= found
+    assert set(SUB_FUNCTIONS) <= sub_functions
+    assert side != "responses" or refused <= found
+
+
+@pytest.mark.parametrize("fault", ["address", "function", "sub_function", "count", "crc", "length"])
+def test_every_fault_of_noise_is_shown(fault: str) -> None:
+    events = chain.from_iterable(vector["events"] + vector["flushed"] for vector in STREAMS)
+
+    assert fault in {event.get("fault") for event in events}
