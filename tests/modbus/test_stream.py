@@ -156,9 +156,9 @@ MANY_WORDS = sealed("0103fa" + "1234" * 125)
         ("010303" + END, Side.RESPONSES, [f"count 010303{END}"], ""),
         ("010300" + END, Side.RESPONSES, [f"count 010300{END}"], ""),
         ("01100000000103" + END, Side.REQUESTS, [f"count 01100000000103{END}"], ""),
-        (sealed("000400000001") + END, Side.BOTH, [f"count {sealed('000400000001')}{END}"], ""),
+        (sealed("000400000001") + END, Side.BOTH, [f"address {sealed('000400000001')}{END}"], ""),
         (sealed("000600020003"), Side.BOTH, [sealed("000600020003")], ""),
-        (sealed("000600020003") + END, Side.RESPONSES, [f"count {sealed('000600020003')}{END}"], ""),
+        (sealed("000600020003") + END, Side.RESPONSES, [f"address {sealed('000600020003')}{END}"], ""),
         (sealed("001000000001021234"), Side.BOTH, [sealed("001000000001021234")], ""),
         (sealed("001000000001") + END, Side.BOTH, [f"count {sealed('001000000001')}{END}"], ""),
     ],
@@ -170,43 +170,6 @@ def test_a_stream_is_split_as_it_should_be(stream: str, side: Side, events: list
 
 
 # --- vectors ----------------------------------------------------------------------------------------------------------
-
-NOT_YET = dict.fromkeys(
-    (
-        "exception-of-no-function",
-        "exception-among-requests",
-        "longest-write-unfinished",
-        "unfinished-after-a-frame",
-        "unfinished-nothing-inside",
-        "truncated-then-good",
-        "truncated-then-good-response",
-        "unknown-function-bad-crc-at-flush",
-    ),
-    "what is unfinished at a flush is told as crc, not length",
-)
-NOT_YET |= dict.fromkeys(
-    (
-        "broadcast-of-a-reading-function",
-        "response-of-address-0",
-        "request-with-crc-0000-as-response",
-        "mask-013b-of-eight-channels",
-    ),
-    "address 0 where no broadcast begins is told as count or function, and held back among responses",
-)
-NOT_YET |= dict.fromkeys(
-    ("unknown-function-at-flush", "unknown-sub-function-at-flush"),
-    "at a flush, an unknown function is not found behind noise",
-)
-"""Where `split` and `flush` differ from the vectors, and how."""
-
-
-def stream_vectors() -> list[object]:
-    cases = parameters("vectors/frames/rtu_split.json")
-    reasons = [NOT_YET.get(case.id.removeprefix("rtu-split-")) for case in cases]
-    return [
-        pytest.param(*case.values, id=case.id, marks=pytest.mark.xfail(strict=True, reason=reason) if reason else ())
-        for case, reason in zip(cases, reasons, strict=True)
-    ]
 
 
 def recorded(events: Iterable[bytes | Noise]) -> list[Record]:
@@ -222,7 +185,7 @@ def recorded(events: Iterable[bytes | Noise]) -> list[Record]:
     return found
 
 
-@pytest.mark.parametrize("vector", stream_vectors())
+@pytest.mark.parametrize("vector", parameters("vectors/frames/rtu_split.json"))
 def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record) -> None:
     stream, side = bytes.fromhex(vector["stream"]), Side(vector["side"])
     profile = None if vector["profile"] is None else profile_of(vector["profile"])

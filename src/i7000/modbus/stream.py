@@ -168,12 +168,13 @@ def drop_echo(received: bytes, sent: bytes) -> bytes | None:
     return received[len(sent) :] if len(received) >= len(sent) else None
 
 
-def _scan(
+def _scan(  # noqa: C901 - one loop
     buffer: bytes, side: Side, profile: Profile | None, request: Request[Any] | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
-    mask_bytes = _MASK_BYTES if profile is None else (profile.mask_digits // 2,)
-    rules = _rules(side, mask_bytes) if request is None else _rules_of_answer(request, mask_bytes)
-    addresses = _MODULES if request is None else range(request.address, request.address + 1)
+    rules = None  # They are asked for where the first three bytes do not tell enough.
+    addresses = range(side is Side.RESPONSES, _LAST_ADDRESS + 1)
+    if request is not None:
+        addresses = range(request.address, request.address + 1)
     by_start = _BY_START[side] if request is None else None
     found: list[bytes | Noise] = []
     size = len(buffer)
@@ -181,15 +182,23 @@ def _scan(
     fault = Fault.LENGTH
     while at < size:
         known = None
-        if by_start is not None and at + 2 < size and buffer[at] in addresses:
+        if by_start is not None and at + 2 < size and buffer[at] in _MODULES:
             known = by_start[buffer[at + 1]][buffer[at + 2]]
-        if known == () and noise_at < at:
+        if known == () and noise_at < at and not final:
             at += 1
             continue
-        lengths, wrong = (known, Fault.CRC) if known else _lengths(buffer, at, rules, addresses)
+        if known:
+            lengths, wrong = known, Fault.CRC
+        else:
+            if rules is None:
+                mask_bytes = _MASK_BYTES if profile is None else (profile.mask_digits // 2,)
+                rules = _rules(side, mask_bytes) if request is None else _rules_of_answer(request, mask_bytes)
+            lengths, wrong = _lengths(buffer, at, rules, addresses)
         end = _end(buffer, at, lengths, final=final)
         if end is None:
             break
+        if lengths and at + lengths[-1] > size:
+            wrong = Fault.LENGTH
         if noise_at == at:
             fault = wrong
         if end == at:
@@ -222,12 +231,12 @@ def _is_whole(frame: bytes) -> bool:
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)
 
 
-def _lengths(  # noqa: C901 - a list of what is looked at, byte after byte
+def _lengths(  # noqa: C901, PLR0911 - a list of what is looked at, byte after byte
     buffer: bytes, at: int, rules: Rules, addresses: range
 ) -> tuple[tuple[int, ...], Fault]:
     """Tell the lengths that a frame beginning here can have, the longest first, and what is wrong if it is none."""
     address = buffer[at]
-    if address not in addresses and address != BROADCAST:
+    if address not in addresses:
         return (), Fault.ADDRESS
     left = len(buffer) - at
     if left < len("af"):
@@ -240,10 +249,12 @@ def _lengths(  # noqa: C901 - a list of what is looked at, byte after byte
         possible = rules.get((function, buffer[at + 2]), ())
     if not possible:
         return (), Fault.SUB_FUNCTION if function == MODULE_SETTINGS else Fault.FUNCTION
+    if address == BROADCAST:
+        possible = tuple(rule for rule in possible if rule.broadcast)
+        if not possible:
+            return (), Fault.ADDRESS
     lengths = []
     for rule in possible:
-        if address == BROADCAST and not rule.broadcast:
-            continue
         length = rule.length
         if rule.count_at:
             if left <= rule.count_at:
