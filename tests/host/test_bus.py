@@ -385,6 +385,13 @@ def test_a_late_response_is_not_the_answer_to_the_next_request() -> None:
     assert [dcon.ReadAnalogInputs(0x02)] == [event.command for event in answer if isinstance(event, Answered)]
 
 
+def test_a_late_response_that_looks_like_the_request_is_late_all_the_same() -> None:
+    bus, deadline = timed_out(COIL)
+    bus, _ = send(bus, COIL, M7019, deadline)
+
+    assert (Late(COIL_WIRE),) == receive(bus, COIL_WIRE, deadline + 0.01)[1]
+
+
 def test_a_late_response_whose_end_comes_after_the_next_request_is_not_its_answer() -> None:
     bus, deadline = timed_out()
     bus, _ = send(bus, INPUTS, M7019, deadline)

@@ -84,7 +84,7 @@ class Bus(Generic[R]):
     line: LineSettings = field(factory=LineSettings)
     policy: Policy = field(factory=Policy)
     echo: bool = False
-    """Whether the adapter hears what it sends, as 2-wire ones may: that is dropped; what comes before it is no answer."""
+    """Whether the adapter hears what it sends, as 2-wire ones may: that is dropped, and what is before it no answer."""
 
     pending: Pending[R] | None = None
     last: Exchange[Any] | None = None
