@@ -51,7 +51,8 @@ class Log:
     Manual: 3.4.3; E73, E74.
     """
 
-    clock_offset: float = 0.0
+    clock_offset: float = 946_684_800.0
+    """That of a clock that was never set: it begins with the year 2000, the first that it can tell (assumption)."""
     command: LogCommand = LogCommand.STOP
     overwrite: bool = False
     period: tuple[int, int, int] = (0, 0, 0)

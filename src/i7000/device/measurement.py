@@ -126,11 +126,18 @@ def fields(
             continue
         if state.eeprom.model.series != "7019":
             value = _zero_if_disabled(value, type_code)
-        try:
-            found.append(encode_field(value, type_code, data_format))
-        except EncodeError:
-            found.append(encode_field(_clamped(value, type_code), type_code, data_format))
+        found.append(_field(value, type_code, data_format))
     return tuple(found)
+
+
+def _field(value: Reading, type_code: TypeCode, data_format: DataFormat) -> str:
+    """Write a reading; what is nearest to 0 from below has a plus."""
+    try:
+        text = encode_field(value, type_code, data_format)
+    except EncodeError:
+        return encode_field(_clamped(value, type_code), type_code, data_format)
+    is_minus_zero = text[0] == "-" and not text.strip("-0.")
+    return encode_field(Reading(0.0, value.unit), type_code, data_format) if is_minus_zero else text
 
 
 def word(state: State, signals: Signals, channel: int) -> int:

@@ -71,8 +71,20 @@ def _map_of(model: Model, firmware: str) -> dict[tuple[Area, int], tuple[Registe
     }
 
 
-def _map(state: State) -> dict[tuple[Area, int], tuple[Register, int]]:
-    return _map_of(state.eeprom.model, str(state.eeprom.firmware))
+def _places(state: State, area: Area, asked: range, forbidden: Access) -> list[tuple[Register, int]]:
+    """Find the rows of some addresses, and which of their items they are.
+
+    Errors: `RequestError` 02 where the first, or one between, is not there for this access; 03 where only the last is
+        not, there being too many.
+    Manual: 3.1, 3.2; E94, E99.
+    """
+    places = _map_of(state.eeprom.model, state.eeprom.firmware.text)
+    found = [places.get((area, address)) for address in asked]
+    there = [place is not None and place[0].access is not forbidden for place in found]
+    if not all(there):
+        too_many = there[0] and not there[-1]
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE if too_many else ExceptionCode.ILLEGAL_DATA_ADDRESS)
+    return [place for place in found if place]
 
 
 # --- reading ----------------------------------------------------------------------------------------------------------
@@ -82,25 +94,17 @@ def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, 
     """Read coils, inputs or registers: the state after it, and what they hold.
 
     Special: reading the reset status ends it. Log records are read whole.
-    Errors: `RequestError` 02 where the first is not there or cannot be read; 03 where a later one is not (E94, E99).
+    Errors: `RequestError`, see `_places`; 03 for a part of a log record.
     """
-    state = context.state
-    places = _map(state)
     found: list[int] = []
-    names = set()
-    for address in asked:
-        row, at = places.get((area, address), (None, 0))
-        if row is None or row.access is Access.WRITE:
-            first = address == asked.start
-            raise RequestError(ExceptionCode.ILLEGAL_DATA_ADDRESS if first else ExceptionCode.ILLEGAL_DATA_VALUE)
-        if row.kind is Kind.RECORD and (at % _RECORD_WORDS or len(asked) % _RECORD_WORDS) and row.name not in names:
-            raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
-        if row.name not in names:
-            names.add(row.name)
-            values = _words_of(row, context)
-        found.append(values[at])
-    if "reset_status" in names:
-        state = state.keep(reset_status_told=True)
+    words: dict[str, tuple[int, ...]] = {}
+    for row, at in _places(context.state, area, asked, Access.WRITE):
+        if row.name not in words:
+            if row.kind is Kind.RECORD and (at % _RECORD_WORDS or len(asked) % _RECORD_WORDS):
+                raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+            words[row.name] = _words_of(row, context)
+        found.append(words[row.name][at])
+    state = context.state.keep(reset_status_told=True) if "reset_status" in words else context.state
     return state, tuple(found)
 
 
@@ -178,8 +182,8 @@ _READ: dict[str, Callable[[Context], int | Iterable[int]]] = {
     "module_type_code": lambda it: type_code(it.state),
     "response_delay": lambda it: it.eeprom.response_delay,
     "host_watchdog_timeout": lambda it: it.eeprom.host_watchdog_timeout,
-    "channel_mask": lambda it: it.eeprom.channel_mask,
-    "channel_mask_high": lambda it: it.eeprom.channel_mask >> 16,
+    "channel_mask": lambda it: it.state.enabled,
+    "channel_mask_high": lambda it: it.state.enabled >> 16,
     "module_cjc_offset": lambda it: it.eeprom.cjc_offset,
     "host_watchdog_timeout_count": lambda it: it.eeprom.host_watchdog_timeouts,
     "cjc_update": lambda it: it.state.ram.cjc_update,
@@ -215,15 +219,12 @@ def write(context: Context, area: Area, start: int, items: Sequence[int]) -> Sta
     """Write coils or registers.
 
     Special: one register of a number of two keeps the other as it is.
-    Errors: `RequestError` 02 where one is not there or cannot be written, 03 for what it cannot hold (E94).
+    Errors: `RequestError`, see `_places`; 03 for what a row cannot hold (E94).
     """
     state, now = context.state, context.now
-    places = _map(state)
+    asked = range(start, start + len(items))
     written: dict[str, tuple[Register, dict[int, int]]] = {}
-    for address, item in enumerate(items, start):
-        row, at = places.get((area, address), (None, 0))
-        if row is None or row.access is Access.READ:
-            raise RequestError(ExceptionCode.ILLEGAL_DATA_ADDRESS)
+    for (row, at), item in zip(_places(state, area, asked, Access.READ), items, strict=True):
         written.setdefault(row.name, (row, {}))[1][at] = item
     values = {name: _values(row, new, context) for name, (row, new) in written.items()}
     clock = {name.removeprefix("rtc_"): values.pop(name)[0] for name in sorted(values) if name in _CLOCK_NAMES}
@@ -265,6 +266,14 @@ def _set_cjc_offsets(context: Context) -> State:
     return context.state.store(channel_offsets=_counts(10, context.values))
 
 
+def _set_mask(context: Context, mask: int, among: int) -> State:
+    """Switch channels; those that the connecting mode does not have cannot be switched on (2.13)."""
+    channels = (1 << context.state.profile.channels) - 1
+    if mask & ~channels:
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+    return enable_channels(context.state, mask, among & channels)
+
+
 def _set_type_codes(context: Context) -> State:
     return context.state.store(type_codes=context.values)
 
@@ -303,8 +312,8 @@ _WRITE: dict[str, Callable[[Context], State]] = {
     "host_watchdog_timeout": lambda it: set_host_watchdog(
         it.state, it.now, enabled=it.eeprom.host_watchdog_enabled, timeout=round(it.value * 10)
     ),
-    "channel_mask": lambda it: enable_channels(it.state, it.value, 0xFFFF),
-    "channel_mask_high": lambda it: enable_channels(it.state, it.value << 16, 0xF0000),
+    "channel_mask": lambda it: _set_mask(it, it.value, 0xFFFF),
+    "channel_mask_high": lambda it: _set_mask(it, it.value << 16, 0xF0000),
     "module_cjc_offset": lambda it: it.state.store(cjc_offset=round(it.value * 100)),
     "host_watchdog_timeout_count": lambda it: it.state.store(host_watchdog_timeouts=it.value),
     "cjc_update": lambda it: set_cjc_update(it.state, it.value, it.signals),

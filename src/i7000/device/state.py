@@ -91,11 +91,9 @@ class Eeprom:
                 raise EncodeError(name, getattr(self, name), f"{inputs} of them: {self.model.value}", "1.3")
         if self.protocol not in self.model.protocols:
             raise EncodeError("protocol", self.protocol, f"DCON: {self.model.value} has no Modbus", "1.12")
-        if len(set(self.type_codes)) > 1 and not profile_of(self).individually_configurable:
-            raise EncodeError("type_codes", self.type_codes, f"one type for all channels: {self.model.value}", "2.15")
-        for code in self.type_codes:
-            if not profile_of(self).supports(code):
-                raise EncodeError("type_codes", code, profile_of(self).supported_types(), "1.11")
+        profile = profile_of(self)  # which refuses types that the channels cannot have, but not those of no channel now
+        if not all(map(profile.supports, set(self.type_codes))):
+            raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
     def _check_numbers(self, inputs: int) -> None:
         limits = {
@@ -252,7 +250,7 @@ def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:
     """Tell what a host would have to know of a module with this EEPROM."""
     return _profile(
         eeprom.model,
-        str(eeprom.firmware),
+        eeprom.firmware.text,
         eeprom.type_codes,
         eeprom.single_ended,
         checksum,
