@@ -9,18 +9,18 @@ import attrs
 import pytest
 
 import i7000
-from i7000 import dcon
+from i7000 import dcon, host
 from i7000.dcon.codec import COMMANDS
 from tests.spec.lint import SPEC, rows
 
 
-@pytest.mark.parametrize("module", [i7000, dcon], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [i7000, dcon, host], ids=lambda module: module.__name__)
 def test_every_public_name_is_there_once(module: ModuleType) -> None:
     assert len(module.__all__) == len(set(module.__all__))
     assert all(hasattr(module, name) for name in module.__all__)
 
 
-@pytest.mark.parametrize("module", [i7000, dcon], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [i7000, dcon, host], ids=lambda module: module.__name__)
 def test_nothing_public_is_left_out(module: ModuleType) -> None:
     public = {
         name for name, value in vars(module).items() if not name.startswith("_") and not isinstance(value, ModuleType)
@@ -30,7 +30,8 @@ def test_nothing_public_is_left_out(module: ModuleType) -> None:
 
 
 @pytest.mark.parametrize(
-    ("module", "name"), [(module, name) for module in (i7000, dcon) for name in module.__all__ if name[0].isalpha()]
+    ("module", "name"),
+    [(module, name) for module in (i7000, dcon, host) for name in module.__all__ if name[0].isalpha()],
 )
 def test_every_public_class_and_function_is_documented(module: ModuleType, name: str) -> None:
     value = getattr(module, name)

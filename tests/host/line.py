@@ -10,15 +10,11 @@ from typing import Any
 from attrs import define, field, frozen
 from hypothesis import strategies as st
 
-from i7000 import Profile, dcon, modbus
+from i7000 import Profile, dcon, host, modbus
 from i7000.host import (
-    Answered,
     AnyCommand,
     Bus,
-    Declined,
     Event,
-    Sent,
-    TimedOut,
     Transmit,
     next_deadline,
     receive,
@@ -107,7 +103,7 @@ class Line:
             for event in self.step():
                 if isinstance(event, Transmit):
                     intact |= self.carry(event.wire, asked, sent)
-                elif isinstance(event, Answered | Declined | TimedOut | Sent):
+                elif isinstance(event, host.Ended):
                     outcomes.append(event)
             if outcomes:
                 break
@@ -123,7 +119,7 @@ class Line:
         while self.coming and self.coming[0][0] <= self.now:
             at, data = self.coming.pop(0)
             self.bus, events = receive(self.bus, data, at)
-            assert not any(isinstance(event, Answered | Declined | TimedOut | Sent) for event in events)
+            assert not any(isinstance(event, host.Ended) for event in events)
             self.events += events
 
     def step(self) -> tuple[Event[Any], ...]:

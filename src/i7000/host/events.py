@@ -12,7 +12,19 @@ from attrs import frozen
 from i7000 import dcon, modbus
 from i7000.errors import Fault, Noise
 
-__all__ = ["Answered", "AnyCommand", "Declined", "Event", "Late", "Outcome", "Rejected", "Sent", "TimedOut", "Transmit"]
+__all__ = [
+    "Answered",
+    "AnyCommand",
+    "Declined",
+    "Ended",
+    "Event",
+    "Late",
+    "Outcome",
+    "Rejected",
+    "Sent",
+    "TimedOut",
+    "Transmit",
+]
 
 AnyCommand = dcon.AnyCommand | modbus.Request[Any]
 """What a host sends, by either protocol."""
@@ -29,36 +41,37 @@ class Transmit:
 
 
 @frozen
-class Answered(Generic[R]):
-    """The outcome of a request that was carried out."""
+class Ended:
+    """What all outcomes are."""
 
     command: AnyCommand
+
+
+@frozen
+class Answered(Ended, Generic[R]):
+    """The outcome of a request that was carried out."""
+
     response: R
 
 
 @frozen
-class Declined:
+class Declined(Ended):
     """The outcome of a request that the module understood and did not carry out.
 
     Manual: 2, 3.
     """
 
-    command: AnyCommand
     response: dcon.Refused | modbus.ExceptionResponse
 
 
 @frozen
-class TimedOut:
+class TimedOut(Ended):
     """The outcome of a request that has no answer, however often it was sent."""
-
-    command: AnyCommand
 
 
 @frozen
-class Sent:
+class Sent(Ended):
     """The outcome of a request to all modules, which none answers: it has gone out, and its pause is over."""
-
-    command: AnyCommand
 
 
 @frozen
