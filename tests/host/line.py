@@ -126,6 +126,7 @@ class Line:
         """Let time pass until something comes in or the host wants to be woken."""
         deadline = next_deadline(self.bus)
         assert deadline is not None
+        assert wake(self.bus, self.now) == (self.bus, ())
         if self.coming and self.coming[0][0] <= deadline:
             self.now, data = self.coming.pop(0)
             self.bus, events = receive(self.bus, data, self.now)

@@ -266,6 +266,15 @@ def test_a_frame_that_is_not_the_answer_is_rejected_and_the_answer_waited_for(
     assert next_deadline(sent) == next_deadline(bus)
 
 
+def test_digits_that_change_places_are_not_seen_by_the_checksum_of_dcon() -> None:
+    sent = dcon.seal(b">" + b"+0025.1" * 8, checksum=True)
+    heard = sent.replace(b"25", b"52", 1)
+
+    _, events = hear(ask(idle(), INPUTS, SEALED), heard)
+
+    assert (Answered(INPUTS, dcon.AnalogInputs(("+0052.1", *("+0025.1",) * 7))),) == events
+
+
 def test_an_answer_counts_until_its_deadline_and_not_after() -> None:
     sent = ask(idle(), READ)
 
@@ -515,6 +524,14 @@ def test_a_lost_echo_is_not_made_up_for_by_an_answer_that_looks_like_it() -> Non
 
     assert events == ()
     assert (TimedOut(COIL),) == wake(bus, due(bus))[1]
+
+
+def test_an_echo_that_is_not_expected_is_rejected_or_answers_a_modbus_write() -> None:
+    _, dcon_events = hear(ask(idle(), READ), READ_WIRE + MASK_WIRE)
+    _, modbus_events = hear(ask(idle(), COIL), COIL_WIRE)
+
+    assert [Rejected, Answered] == [type(event) for event in dcon_events]
+    assert modbus_events == (COIL_ANSWER,)
 
 
 def test_each_try_has_its_echo() -> None:

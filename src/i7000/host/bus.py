@@ -84,7 +84,8 @@ class Bus(Generic[R]):
     line: LineSettings = field(factory=LineSettings)
     policy: Policy = field(factory=Policy)
     echo: bool = False
-    """Whether the adapter hears what it sends, as 2-wire ones may: that is dropped, and what is before it no answer."""
+    """Whether the adapter hears what it sends, as 2-wire ones may. Its echo is dropped, and nothing before it is an
+    answer. A Modbus write whose echo is not expected is answered by it."""
 
     pending: Pending[R] | None = None
     last: Exchange[Any] | None = None
