@@ -299,3 +299,9 @@ def test_a_signal_is_finite(value: float) -> None:
 def test_a_cold_junction_is_where_modules_can_be(value: float) -> None:
     with pytest.raises(EncodeError):
         Signals(cold_junction=value)
+
+
+def test_a_disabled_channel_of_old_firmware_is_0_too() -> None:
+    module = bench(Model.I_7018, "B1.4", type_code=TypeCode.K, channel_mask=0xFE)
+
+    assert str(module.say("#01")).startswith(">+0000.0+0025.0")

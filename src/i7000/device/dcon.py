@@ -101,14 +101,13 @@ def _diagnostics(call: _Call) -> dcon.Diagnostics:
 
 
 def _one_input(call: _Call) -> dcon.AnalogInput:
-    channel = call.command.channel
-    return dcon.AnalogInput(*fields(call.state, call.signals, range(channel, channel + 1)))
+    return dcon.AnalogInput(fields(call.state, call.signals)[call.command.channel])
 
 
 _TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
     dcon.ReadAnalogInputs: lambda it: dcon.AnalogInputs(fields(it.state, it.signals)),
     dcon.ReadAnalogInput: _one_input,
-    dcon.ReadAnalogInputsHex: lambda it: dcon.AnalogInputsHex(fields(it.state, it.signals, data_format=DataFormat.HEX)),
+    dcon.ReadAnalogInputsHex: lambda it: dcon.AnalogInputsHex(fields(it.state, it.signals, DataFormat.HEX)),
     dcon.ReadConfiguration: _configuration,
     dcon.ReadCjcTemperature: lambda it: dcon.CjcTemperature(round(cold_junction(it.state, it.signals), 1)),
     dcon.ReadChannelMask: lambda it: dcon.ChannelMask(it.address, it.state.enabled),

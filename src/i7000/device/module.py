@@ -1,7 +1,7 @@
 """A whole module: what time does to it, and what a frame does (manual 2, 3, A.2)."""
 
 from i7000.device import dcon, modbus
-from i7000.device.measurement import word
+from i7000.device.measurement import words
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.models import Model
@@ -55,5 +55,4 @@ def _logged(state: State, signals: Signals, now: float) -> State:
     due = log.due(now)
     if not due:
         return state
-    words = tuple(word(state, signals, channel) for channel in range(len(state.eeprom.type_codes)))
-    return state.store(log=log.recorded(words, due))
+    return state.store(log=log.recorded(words(state, signals), due))

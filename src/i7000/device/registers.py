@@ -20,7 +20,7 @@ from i7000.device.changes import (
     type_code,
 )
 from i7000.device.logger import DATE_PARTS, LogCommand, changed, date_of
-from i7000.device.measurement import cold_junction, faults, temperature, word
+from i7000.device.measurement import cold_junction, faults, temperatures, words
 from i7000.device.signals import Signals
 from i7000.device.state import Eeprom, State
 from i7000.errors import DecodeError, EncodeError
@@ -62,13 +62,12 @@ class Context(NamedTuple):
 
 
 @lru_cache(maxsize=256)
-def _map_of(model: Model, firmware: str) -> dict[tuple[Area, int], tuple[Register, int]]:
+def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register, int]]]:
     """Tell which row an address belongs to, and which of its items it is."""
-    return {
-        (row.area, row.address + at): (row, at)
-        for row in rows(Profile(model, firmware=Firmware(firmware), type_codes=()))
-        for at in range(row.count)
-    }
+    found: dict[Area, dict[int, tuple[Register, int]]] = {area: {} for area in Area}
+    for row in rows(Profile(model, firmware=Firmware(firmware), type_codes=())):
+        found[row.area] |= {row.address + at: (row, at) for at in range(row.count)}
+    return found
 
 
 def _places(state: State, area: Area, asked: range, forbidden: Access) -> list[tuple[Register, int]]:
@@ -78,8 +77,8 @@ def _places(state: State, area: Area, asked: range, forbidden: Access) -> list[t
         not, there being too many.
     Manual: 3.1, 3.2; E94, E99.
     """
-    places = _map_of(state.eeprom.model, state.eeprom.firmware.text)
-    found = [places.get((area, address)) for address in asked]
+    places = _map_of(state.eeprom.model, state.eeprom.firmware.text)[area]
+    found = [places.get(address) for address in asked]
     there = [place is not None and place[0].access is not forbidden for place in found]
     if not all(there):
         too_many = there[0] and not there[-1]
@@ -111,7 +110,7 @@ def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, 
 def _words_of(row: Register, context: Context) -> tuple[int, ...]:
     """Tell what all items of a row hold, as bits or words."""
     values = _READ[row.name](context)
-    items: tuple[int, ...] = tuple(values) if isinstance(values, Iterable) else (values,)
+    items: tuple[int, ...] = (values,) if isinstance(values, int) else tuple(values)
     if row.kind is Kind.UINT32:
         return counts_of(row, items[0], context.state.profile, big_endian=context.eeprom.big_endian)
     mask = 0xFF if row.kind is Kind.INT8 else 0xFFFF
@@ -165,9 +164,9 @@ def _period(at: int) -> Callable[[Context], int]:
 _PERIOD_PARTS = ("hour", "minute", "second")
 
 _READ: dict[str, Callable[[Context], int | Iterable[int]]] = {
-    "analog_input": lambda it: [word(it.state, it.signals, at) for at in range(len(it.eeprom.type_codes))],
+    "analog_input": lambda it: words(it.state, it.signals),
     "range_status": lambda it: faults(it.state, it.signals, it.eeprom.model.channels),
-    "temperature": lambda it: [temperature(it.state, it.signals, at) for at in range(len(it.eeprom.type_codes))],
+    "temperature": lambda it: temperatures(it.state, it.signals),
     "cjc_temperature": lambda it: round(cold_junction(it.state, it.signals) * 100),
     "log_records": _records,
     "type_code": lambda it: it.eeprom.type_codes,

@@ -34,7 +34,7 @@ OPEN_WIRE = None
 _COLDEST, _HOTTEST = -200.0, 200.0
 
 
-@frozen
+@frozen(cache_hash=True)
 class Signals:
     """What is on all inputs of a module, channel 0 first; those that are not named are open.
 

@@ -37,7 +37,7 @@ def inputs_of(model: Model) -> int:
     return model.single_ended_channels or model.channels
 
 
-@frozen
+@frozen(cache_hash=True)
 class Eeprom:
     """What a module remembers without power: the factory's settings where nothing else is said.
 
@@ -79,7 +79,7 @@ class Eeprom:
     sampling_rate_8_hz: bool = True
     """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""
     big_endian: bool = False
-    log: Log = Log()  # noqa: RUF009 - frozen
+    log: Log = field(default=Log(), hash=False)
 
     def __attrs_post_init__(self) -> None:
         inputs = inputs_of(self.model)
@@ -92,7 +92,7 @@ class Eeprom:
         if self.protocol not in self.model.protocols:
             raise EncodeError("protocol", self.protocol, f"DCON: {self.model.value} has no Modbus", "1.12")
         profile = profile_of(self)  # which refuses types that the channels cannot have, but not those of no channel now
-        if not all(map(profile.supports, set(self.type_codes))):
+        if not all(map(profile.supports, self.type_codes[profile.channels :])):
             raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
     def _check_numbers(self, inputs: int) -> None:
