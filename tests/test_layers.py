@@ -26,7 +26,12 @@ RINGS = {
     "simulator": 4,
     "conformance": 4,
 }
-EXTRAS = {"strategies": {"hypothesis"}, "cli": {"cyclopts", "rich"}, "simulator": {"cyclopts", "rich", "serial"}}
+EXTRAS = {
+    "strategies": {"hypothesis"},
+    "cli": {"cyclopts", "rich"},
+    "examples": {"serial"},
+    "simulator": {"cyclopts", "rich", "serial"},
+}
 PURE = {
     "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip

@@ -2,8 +2,8 @@
 
 ``python -m tests.spec.lint`` names the files that are not canonical; with ``--fix`` it rewrites them.
 
-Laws: a data file is one JSON object with a top-level key a line and a record a line; keys stand in the order of the
-schema; a schema is indented by two. Nothing here knows what a field means.
+Laws: a data file is one JSON object with a top-level key a line and a record a line, and of a story a step a line; keys
+stand in the order of the schema; a schema is indented by two. Nothing here knows what a field means.
 """
 
 from __future__ import annotations
@@ -31,12 +31,13 @@ SCHEMAS = {
     "vectors/frames/split.json": "split_vectors",
     "vectors/frames/rtu_split.json": "rtu_split_vectors",
     "vectors/frames/crc.json": "crc_vectors",
+    "stories": "stories",
 }
 """Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""
 
 
 def data_files() -> list[Path]:
-    """Every table, the errata and every vector file."""
+    """Every table, the errata, every vector file and every story file."""
     return sorted(path for path in SPEC.rglob("*.json") if path.parent != SPEC / "schema")
 
 
@@ -54,6 +55,11 @@ def vector_files(folder: str = "") -> list[Path]:
     """Every file under ``spec/vectors/`` and the folder or file named."""
     root = SPEC / "vectors" / folder
     return [root] if root.is_file() else sorted(root.rglob("*.json"))
+
+
+def story_files() -> list[Path]:
+    """Every file of stories."""
+    return sorted((SPEC / "stories").glob("*.json"))
 
 
 def name(path: Path) -> str:
@@ -89,9 +95,15 @@ def vectors(folder: str = "") -> Iterator[tuple[Path, Record]]:
             yield path, vector
 
 
+def stories() -> Iterator[Record]:
+    """Every story of every file."""
+    for path in story_files():
+        yield from load(path)["stories"]
+
+
 def records(data: Mapping[str, Json]) -> list[Record]:
-    """The rows or vectors of one file."""
-    found: list[Record] = data["vectors"] if "vectors" in data else data["rows"]
+    """The rows, vectors or stories of one file."""
+    found: list[Record] = next(data[key] for key in ("vectors", "stories", "rows") if key in data)
     return found
 
 
@@ -103,7 +115,7 @@ def schema_path(path: Path) -> Path:
 
 
 def canonical(data: Mapping[str, Json]) -> str:
-    """The one way to write a file: schemas indented, everything else a record a line."""
+    """The one way to write a file: schemas indented, everything else a record a line, and the steps of a story too."""
     if "$schema" in data:
         return json.dumps(data, ensure_ascii=False, indent=2) + "\n"
     entries = [f"  {_line(key)}: {_value(value)}" for key, value in data.items()]
@@ -116,8 +128,15 @@ def _line(value: Json) -> str:
 
 def _value(value: Json) -> str:
     if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
-        return "[\n" + ",\n".join(f"    {_line(item)}" for item in value) + "\n  ]"
+        return "[\n" + ",\n".join(f"    {_record(item)}" for item in value) + "\n  ]"
     return _line(value)
+
+
+def _record(record: Record) -> str:
+    if "steps" not in record:
+        return _line(record)
+    head = _line({key: value for key, value in record.items() if key != "steps"})
+    return f'{head[:-1]}, "steps": [\n' + ",\n".join(f"      {_line(step)}" for step in record["steps"]) + "\n    ]}"
 
 
 def ordered(value: Json, schema: Mapping[str, Json], root: Mapping[str, Json] | None = None) -> Json:

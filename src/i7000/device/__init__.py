@@ -1,0 +1,30 @@
+"""The executable model of a module, pure: a state, a frame, signals and the time give the next state and an answer.
+
+`factory` and `power_on` make a module, `step` lets it hear a frame, `advance` lets time pass; a `Bus` is several. A
+power cycle is ``power_on(state.eeprom, now=now)``. Where the manual is silent the docstrings say what is assumed, with
+the id of ``spec/errata.json`` where there is one.
+"""
+
+from i7000.device.bus import Bus
+from i7000.device.logger import CAPACITY, Log, LogCommand, Record
+from i7000.device.module import advance, step
+from i7000.device.signals import OPEN_WIRE, Signal, Signals
+from i7000.device.state import Eeprom, Ram, State, factory, power_on
+
+__all__ = [
+    "CAPACITY",
+    "OPEN_WIRE",
+    "Bus",
+    "Eeprom",
+    "Log",
+    "LogCommand",
+    "Ram",
+    "Record",
+    "Signal",
+    "Signals",
+    "State",
+    "advance",
+    "factory",
+    "power_on",
+    "step",
+]

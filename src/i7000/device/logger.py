@@ -1,0 +1,180 @@
+"""The clock and the data logger of the M-7017mC-16 (manual 3.4.3).
+
+Laws: nothing here knows a module: the clock is an offset to the time that `i7000.device.step` is given, and what is
+recorded is what it is handed. What the manual leaves open is chosen here and marked as an assumption.
+"""
+
+from collections.abc import Mapping
+from enum import IntEnum
+from math import ceil, floor
+
+from attrs import evolve, frozen
+
+__all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
+
+CAPACITY = 1024
+"""Records that the logger has room for (assumption: the manual has no number)."""
+RECORDS_IN_MAP = 6
+RECORD_READINGS = 16
+
+Date = tuple[int, int, int, int, int, int]
+"""Year, month, date, hour, minute, second."""
+_DAY = 86_400
+
+
+class LogCommand(IntEnum):
+    """What the data logger is told to do (40876)."""
+
+    STOP = 0
+    CONTINUOUS = 1
+    PERIOD = 2
+
+
+@frozen
+class Record:
+    """What the inputs read at one moment.
+
+    Shape: `words` are in the Modbus data format of that moment; `time` in seconds of the module's clock.
+    """
+
+    index: int
+    words: tuple[int, ...]
+    time: int
+
+
+@frozen
+class Log:
+    """The data logger's settings and its records, oldest first; all of it is kept without power (assumption).
+
+    Shape: records are counted from 1 on, so that a last index of 0 says that there is none (assumption).
+    Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
+    Manual: 3.4.3; E73, E74.
+    """
+
+    clock_offset: float = 946_684_800.0
+    """That of a clock that was never set: it begins with the year 2000, the first that it can tell (assumption)."""
+    command: LogCommand = LogCommand.STOP
+    overwrite: bool = False
+    period: tuple[int, int, int] = (0, 0, 0)
+    """Hours, minutes, seconds; all zero logs nothing (E74: undefined)."""
+    start: Date = (2000, 1, 1, 0, 0, 0)
+    end: Date = (2159, 12, 31, 23, 59, 59)
+    read_index: int = 1
+    last_index: int = 0
+    records: tuple[Record, ...] = ()
+    next_at: float = 0.0
+    """When the next record is due, on the module's clock."""
+
+    @property
+    def seconds(self) -> int:
+        """The sampling period."""
+        hours, minutes, seconds = self.period
+        return hours * 3600 + minutes * 60 + seconds
+
+    def clock(self, now: float) -> float:
+        """Tell what the module's clock says, in seconds since 1970."""
+        return self.clock_offset + now
+
+    def running(self, now: float) -> bool:
+        """Whether it logs: told to, with a period, room, and the clock between start and end in period mode."""
+        within = moment_of(self.start) <= self.clock(now) <= moment_of(self.end)
+        return (
+            self.command is not LogCommand.STOP
+            and self.seconds > 0
+            and (self.overwrite or len(self.records) < CAPACITY)
+            and (self.command is LogCommand.CONTINUOUS or within)
+        )
+
+    def planned(self, now: float) -> "Log":
+        """Plan the next record after a change of settings or of the clock.
+
+        Time: at once in continuous mode; in period mode at the next whole period after the start (assumption).
+        """
+        clock, start = self.clock(now), moment_of(self.start)
+        if self.command is LogCommand.PERIOD and self.seconds:
+            clock = start + ceil(max(0.0, clock - start) / self.seconds) * self.seconds
+        return evolve(self, next_at=clock)
+
+    def due(self, now: float) -> int:
+        """Tell how many records are due, however much room there is."""
+        if self.command is LogCommand.STOP or not self.seconds:
+            return 0
+        until = self.clock(now)
+        if self.command is LogCommand.PERIOD:
+            until = min(until, moment_of(self.end))
+        return max(0, floor((until - self.next_at) / self.seconds) + 1)
+
+    def recorded(self, words: tuple[int, ...], due: int) -> "Log":
+        """Write the records that are due, as many as there is room for; the oldest make room where that is allowed."""
+        room = due if self.overwrite else min(due, CAPACITY - len(self.records))
+        new = tuple(
+            Record(self.last_index + 1 + at & 0xFFFFFFFF, words, floor(self.next_at + at * self.seconds) & 0xFFFFFFFF)
+            for at in range(max(0, room - CAPACITY), room)
+        )
+        return evolve(
+            self,
+            records=(self.records + new)[-CAPACITY:],
+            last_index=self.last_index + room & 0xFFFFFFFF,
+            next_at=self.next_at + due * self.seconds,
+        )
+
+    def set_clock(self, parts: Mapping[str, int], now: float) -> "Log":
+        """Set some parts of the date; a date that the month does not have becomes its last (assumption)."""
+        date = changed(date_of(self.clock(now)), parts)
+        return self.set_epoch(moment_of(date), now)
+
+    def set_epoch(self, seconds: int, now: float) -> "Log":
+        """Set the clock, in seconds since 1970."""
+        return evolve(self, clock_offset=seconds - now).planned(now)
+
+    def window(self) -> tuple[Record | None, ...]:
+        """Tell the records that the registers show: those from the read index on."""
+        by_index = {record.index: record for record in self.records}
+        return tuple(by_index.get(self.read_index + at) for at in range(RECORDS_IN_MAP))
+
+
+DATE_PARTS = ("year", "month", "date", "hour", "minute", "second")
+
+
+def changed(date: Date, parts: Mapping[str, int]) -> Date:
+    """Change some parts of a date."""
+    year, month, day, hour, minute, second = (
+        parts.get(name, value) for name, value in zip(DATE_PARTS, date, strict=True)
+    )
+    return year, month, day, hour, minute, second
+
+
+def moment_of(date: Date) -> int:
+    """Tell the seconds from 1970 to a date; a day that the month does not have is its last.
+
+    >>> moment_of((2020, 12, 22, 13, 5, 9)), moment_of((2021, 2, 31, 0, 0, 0)) == moment_of((2021, 2, 28, 0, 0, 0))
+    (1608642309, True)
+    """
+    year, month, day, hour, minute, second = date
+    last = _days(year + month // 12, month % 12 + 1) - _days(year, month)
+    return (_days(year, month) + min(day, last) - 1) * _DAY + hour * 3600 + minute * 60 + second
+
+
+def date_of(seconds: float) -> Date:
+    """Tell the date that is so many seconds after 1970.
+
+    >>> date_of(1608642309.7)
+    (2020, 12, 22, 13, 5, 9)
+    """
+    days, rest = divmod(floor(seconds), _DAY)
+    year = 1970 + days * 400 // 146_097
+    year -= _days(year, 1) > days
+    year += _days(year + 1, 1) <= days
+    month = max(month for month in range(1, 13) if _days(year, month) <= days)
+    return year, month, days - _days(year, month) + 1, rest // 3600, rest // 60 % 60, rest % 60
+
+
+_DAYS_BEFORE = (0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334)
+
+
+def _days(year: int, month: int) -> int:
+    """Days from 1970 to the first of a month."""
+    past = year - 1
+    leaps = past // 4 - past // 100 + past // 400 - 477
+    leap = month > 2 and year % 4 == 0 and (year % 100 != 0 or year % 400 == 0)
+    return (year - 1970) * 365 + leaps + _DAYS_BEFORE[month - 1] + leap

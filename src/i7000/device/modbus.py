@@ -1,0 +1,218 @@
+"""A module that speaks Modbus RTU (manual 3): functions 01 to 06, 0F, 10 and 46h.
+
+Laws: a frame that is damaged or not for this module is not answered; what cannot be done is answered with an exception
+and changes nothing; what is for all modules is done and not answered (E94). Any request that is carried out is a sign
+of life of the host (assumption: the protocol has no other).
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from attrs import evolve
+
+from i7000 import modbus
+from i7000.device.changes import enable_channels, set_address, set_cjc_update, set_line, set_types
+from i7000.device.registers import Context, RequestError, firmware_bytes, read, series_bytes, write
+from i7000.device.signals import Signals
+from i7000.device.state import Eeprom, State
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.modbus import Area, ExceptionCode
+from i7000.settings import Filter
+
+__all__ = ["step"]
+
+
+class _Call(NamedTuple):
+    """A request, and all that its answer can depend on."""
+
+    state: State
+    request: Any
+    signals: Signals
+    now: float
+
+    @property
+    def eeprom(self) -> Eeprom:
+        return self.state.eeprom
+
+    @property
+    def address(self) -> int:
+        address: int = self.request.address
+        return address
+
+
+def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+    """Hear a frame: the state after it, and the answer or None for silence."""
+    if not frame or frame[0] not in (state.ram.address, modbus.BROADCAST):
+        return state, None
+    try:
+        request = modbus.decode_request(frame, state.profile)
+    except DecodeError as error:
+        code = _code_of(error, state)
+        return state, None if code is None else _exception(frame[0], frame[1], code, state)
+    try:
+        after, response = _carry_out(_Call(state, request, signals, now))
+    except RequestError as error:
+        after, response = state, modbus.ExceptionResponse(request.address, request.function, error.code)
+    else:
+        if state.eeprom.host_watchdog_enabled:
+            after = after.keep(fed_at=now)
+    if not modbus.is_answered(request):
+        return after, None
+    return after, modbus.encode(response, state.profile)
+
+
+_UNHEARD = (Fault.CRC, Fault.ADDRESS)
+
+
+def _code_of(error: DecodeError, state: State) -> ExceptionCode | None:
+    """Tell the exception that answers a damaged request; None for what is no request to this module at all.
+
+    Manual: 3, 3.1, 3.2, 3.3; E94, E99.
+    """
+    frame = error.wire
+    whole = modbus.SHORTEST_FRAME <= len(frame) <= modbus.LONGEST_FRAME
+    if error.fault in _UNHEARD or not whole or frame[0] == modbus.BROADCAST:
+        return None
+    if error.fault is Fault.FUNCTION:
+        return ExceptionCode.ILLEGAL_FUNCTION
+    if error.fault is Fault.SUB_FUNCTION:
+        return ExceptionCode.ILLEGAL_DATA_ADDRESS
+    return _unsupported(error.section, state) or ExceptionCode.ILLEGAL_DATA_VALUE
+
+
+def _unsupported(section: str, state: State) -> ExceptionCode | None:
+    """Tell how a function that the model does not have is answered: 01, and 02 for one of the sub-functions."""
+    if section not in state.profile.refused:
+        return None
+    return ExceptionCode.ILLEGAL_DATA_ADDRESS if section.startswith("3.3.") else ExceptionCode.ILLEGAL_FUNCTION
+
+
+def _exception(address: int, function: int, code: ExceptionCode, state: State) -> bytes | None:
+    """Write an exception; function codes 00 and 80 cannot be told in one."""
+    function &= 0x7F
+    return modbus.encode(modbus.ExceptionResponse(address, function, code), state.profile) if function else None
+
+
+def _carry_out(call: _Call) -> tuple[State, modbus.Response]:
+    request, profile = call.request, call.state.profile
+    code = _unsupported(request.section, call.state)
+    if code is not None:
+        raise RequestError(code)
+    try:
+        request.check(profile)
+    except EncodeError:
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
+    kind = type(request)
+    if kind in _READ:
+        area, response = _READ[kind]
+        asked = range(request.start, request.start + request.count)
+        state, items = read(Context(call.state, call.signals, call.now), area, asked)
+        return state, response(call.address, tuple(map(bool, items)) if area.bits else items)
+    if kind in _WRITTEN:
+        return _write(call, *_WRITTEN[kind](request))
+    if kind in _TOLD:
+        return call.state, _TOLD[kind](call)
+    return _DONE[kind](call), _acknowledgement(call)
+
+
+# --- functions 01 to 10 -----------------------------------------------------------------------------------------------
+
+_READ: dict[type, tuple[Area, Callable[[int, Any], modbus.Response]]] = {
+    modbus.ReadCoils: (Area.COIL, modbus.Coils),
+    modbus.ReadDiscreteInputs: (Area.DISCRETE_INPUT, modbus.DiscreteInputs),
+    modbus.ReadHoldingRegisters: (Area.HOLDING_REGISTER, modbus.HoldingRegisters),
+    modbus.ReadInputRegisters: (Area.INPUT_REGISTER, modbus.InputRegisters),
+}
+
+_WRITTEN: dict[type, Callable[[Any], tuple[Area, int, tuple[int, ...], modbus.Response]]] = {
+    modbus.WriteSingleCoil: lambda it: (
+        Area.COIL, it.coil, (it.value,), modbus.SingleCoilWritten(it.address, it.coil, it.value),
+    ),
+    modbus.WriteSingleRegister: lambda it: (
+        Area.HOLDING_REGISTER, it.register, (it.value,),
+        modbus.SingleRegisterWritten(it.address, it.register, it.value),
+    ),
+    modbus.WriteMultipleCoils: lambda it: (
+        Area.COIL, it.start, it.values, modbus.MultipleCoilsWritten(it.address, it.start, len(it.values)),
+    ),
+    modbus.WriteMultipleRegisters: lambda it: (
+        Area.HOLDING_REGISTER, it.start, it.values,
+        modbus.MultipleRegistersWritten(it.address, it.start, len(it.values)),
+    ),
+}  # fmt: skip
+"""Where a request writes what, and what answers it."""
+
+
+def _write(
+    call: _Call, area: Area, start: int, items: tuple[int, ...], response: modbus.Response
+) -> tuple[State, modbus.Response]:
+    return write(Context(call.state, call.signals, call.now), area, start, items), response
+
+
+# --- function 46h -----------------------------------------------------------------------------------------------------
+
+
+def _miscellaneous(call: _Call) -> int:
+    report = call.eeprom.report_settings
+    return report.filter.value << 7 | report.fast_mode << 5
+
+
+def _offset(call: _Call) -> int:
+    """Tell the offset of the module, or of a channel as a byte (E62)."""
+    channel = call.request.channel
+    return call.eeprom.channel_offsets[channel - 0x80] & 0xFF if channel else call.eeprom.cjc_offset
+
+
+_TOLD: dict[type, Callable[[_Call], modbus.Response]] = {
+    modbus.ReadModuleName: lambda it: modbus.ModuleName(it.address, series_bytes(it.eeprom.model)),
+    modbus.ReadCommunicationSettings: lambda it: modbus.CommunicationSettings(
+        it.address, it.eeprom.line_settings, it.eeprom.protocol
+    ),
+    modbus.ReadTypeCode: lambda it: modbus.TypeCodeSetting(it.address, it.eeprom.type_codes[it.request.channel]),
+    modbus.ReadFirmwareVersion: lambda it: modbus.FirmwareVersion(it.address, *firmware_bytes(it.eeprom.firmware)),
+    modbus.ReadChannelMask: lambda it: modbus.ChannelMask(it.address, it.state.enabled),
+    modbus.ReadMiscellaneousSettings: lambda it: modbus.MiscellaneousSettings(it.address, _miscellaneous(it)),
+    modbus.ReadCjcOffset: lambda it: modbus.CjcOffset(it.address, _offset(it)),
+    modbus.ReadCjcEnabled: lambda it: modbus.CjcEnabled(it.address, enabled=it.eeprom.cjc_enabled),
+    modbus.ReadCjcUpdate: lambda it: modbus.CjcUpdateSetting(it.address, it.state.ram.cjc_update),
+}
+
+
+def _set_type_code(call: _Call) -> State:
+    return set_types(call.state, call.request.type_code, (call.request.channel,))
+
+
+def _set_miscellaneous(call: _Call) -> State:
+    report, settings = call.eeprom.report_settings, call.request.settings
+    fast_mode, mains = bool(settings & 0x20), Filter(bool(settings & 0x80))
+    return call.state.store(report_settings=evolve(report, fast_mode=fast_mode, filter=mains))
+
+
+def _set_offset(call: _Call) -> State:
+    """Set the offset of the module, or of a channel from its byte (E62)."""
+    channel, offset = call.request.channel, call.request.offset
+    if not channel:
+        return call.state.store(cjc_offset=offset)
+    offsets = list(call.eeprom.channel_offsets)
+    offsets[channel - 0x80] = offset - (offset & 0x80) * 2
+    return call.state.store(channel_offsets=tuple(offsets))
+
+
+_DONE: dict[type, Callable[[_Call], State]] = {
+    modbus.SetModuleAddress: lambda it: set_address(it.state, it.request.new_address),
+    modbus.SetCommunicationSettings: lambda it: set_line(it.state, it.request.line_settings, it.request.protocol),
+    modbus.SetTypeCode: _set_type_code,
+    modbus.SetChannelMask: lambda it: enable_channels(it.state, it.request.mask, (1 << it.state.profile.channels) - 1),
+    modbus.SetMiscellaneousSettings: _set_miscellaneous,
+    modbus.SetCjcOffset: _set_offset,
+    modbus.SetCjcEnabled: lambda it: it.state.store(cjc_enabled=it.request.enabled),
+    modbus.SetCjcUpdate: lambda it: set_cjc_update(it.state, it.request.update, it.signals),
+}
+
+
+def _acknowledgement(call: _Call) -> modbus.Response:
+    """Say that a setting was made: from the old address, if it was that (E90)."""
+    if isinstance(call.request, modbus.SetCommunicationSettings):
+        return modbus.CommunicationSettingsResult(call.address, 0, 0)
+    response: modbus.Response = call.request.response(call.address, 0)
+    return response

@@ -1,0 +1,58 @@
+"""A whole module: what time does to it, and what a frame does (manual 2, 3, A.2)."""
+
+from i7000.device import dcon, modbus
+from i7000.device.measurement import words
+from i7000.device.signals import Signals
+from i7000.device.state import State
+from i7000.models import Model
+from i7000.settings import Protocol
+
+__all__ = ["advance", "step"]
+
+_MOST_TIMEOUTS = 0xFFFF
+
+
+def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+    r"""Let a module hear a frame: the state after it, and the answer or None for silence.
+
+    Shape: `frame` is one whole frame, as the splitter of its protocol finds it.
+    Time: `now` is in seconds, of the clock that `power_on` was given.
+    Special: no frame raises; one that is not carried out changes nothing but what time does, see `advance`.
+    Manual: 2, 3; E27, E94.
+
+    >>> from i7000.device import factory, power_on
+    >>> from i7000 import Model, Unit
+    >>> module = power_on(factory(Model.I_7018), now=0.0)
+    >>> step(module, b"#010\r", Signals.of(Unit.VOLT, 1.5), 0.0)[1]
+    b'>+1.5000\r'
+    """
+    state = advance(state, signals, now)
+    speak = modbus.step if state.ram.protocol is Protocol.MODBUS_RTU else dcon.step
+    return speak(state, frame, signals, now)
+
+
+def advance(state: State, signals: Signals, now: float) -> State:
+    """Let time pass: the host watchdog may time out, the data logger record.
+
+    Special: what the logger missed since it was last called, it records with the `signals` of now.
+    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (a time-out of 0 never comes: assumption).
+    """
+    eeprom = state.eeprom
+    timeout = eeprom.host_watchdog_timeout
+    if eeprom.host_watchdog_enabled and timeout and now >= state.ram.fed_at + timeout / 10:
+        state = state.store(
+            host_watchdog_enabled=False,
+            host_watchdog_timed_out=True,
+            host_watchdog_timeouts=min(eeprom.host_watchdog_timeouts + 1, _MOST_TIMEOUTS),
+        )
+    if eeprom.model is Model.M_7017mC_16:
+        return _logged(state, signals, now)
+    return state
+
+
+def _logged(state: State, signals: Signals, now: float) -> State:
+    log = state.eeprom.log
+    due = log.due(now)
+    if not due:
+        return state
+    return state.store(log=log.recorded(words(state, signals), due))

@@ -1,0 +1,343 @@
+"""The coils, inputs and registers of a module's map, read and written (manual 3.4).
+
+Laws: which there are and what they can hold is what `i7000.modbus` says; that they are facts of the same state as the
+DCON commands is said here. A write is made as a whole or not at all.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from attrs import evolve
+
+from i7000.device.changes import (
+    enable_channels,
+    set_address,
+    set_cjc_update,
+    set_host_watchdog,
+    set_line,
+    set_types,
+    type_code,
+)
+from i7000.device.logger import DATE_PARTS, LogCommand, changed, date_of
+from i7000.device.measurement import cold_junction, faults, temperatures, words
+from i7000.device.signals import Signals
+from i7000.device.state import Eeprom, State
+from i7000.errors import DecodeError, EncodeError
+from i7000.modbus import Access, Area, ExceptionCode, Kind, Register, SetCommunicationSettings
+from i7000.modbus.register_values import counts_of, value_of
+from i7000.modbus.registers import rows
+from i7000.models import Firmware, Model
+from i7000.profile import Profile
+
+__all__ = ["Context", "RequestError", "firmware_bytes", "read", "series_bytes", "write"]
+
+
+class RequestError(Exception):
+    """A request that is answered with an exception."""
+
+    def __init__(self, code: ExceptionCode) -> None:
+        super().__init__(code)
+        self.code = code
+
+
+class Context(NamedTuple):
+    """What a read or a write can depend on."""
+
+    state: State
+    signals: Signals
+    now: float
+    values: tuple[Any, ...] = ()
+    """What is written."""
+
+    @property
+    def eeprom(self) -> Eeprom:
+        """What the module has stored."""
+        return self.state.eeprom
+
+    @property
+    def value(self) -> Any:  # noqa: ANN401 - what the row holds
+        """The value that is written to a row of one."""
+        return self.values[0]
+
+
+@lru_cache(maxsize=256)
+def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register, int]]]:
+    """Tell which row an address belongs to, and which of its items it is."""
+    found: dict[Area, dict[int, tuple[Register, int]]] = {area: {} for area in Area}
+    for row in rows(Profile(model, firmware=Firmware(firmware), type_codes=())):
+        found[row.area] |= {row.address + at: (row, at) for at in range(row.count)}
+    return found
+
+
+def _places(state: State, area: Area, asked: range, forbidden: Access) -> list[tuple[Register, int]]:
+    """Find the rows of some addresses, and which of their items they are.
+
+    Errors: `RequestError` 02 where the first, or one between, is not there for this access; 03 where only the last is
+        not, there being too many.
+    Manual: 3.1, 3.2; E94, E99.
+    """
+    places = _map_of(state.eeprom.model, state.eeprom.firmware.text)[area]
+    found = [places.get(address) for address in asked]
+    there = [place is not None and place[0].access is not forbidden for place in found]
+    if not all(there):
+        too_many = there[0] and not there[-1]
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE if too_many else ExceptionCode.ILLEGAL_DATA_ADDRESS)
+    return [place for place in found if place]
+
+
+# --- reading ----------------------------------------------------------------------------------------------------------
+
+
+def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
+    """Read coils, inputs or registers: the state after it, and what they hold.
+
+    Special: reading the reset status ends it. Log records are read whole.
+    Errors: `RequestError`, see `_places`; 03 for a part of a log record.
+    """
+    found: list[int] = []
+    words: dict[str, tuple[int, ...]] = {}
+    for row, at in _places(context.state, area, asked, Access.WRITE):
+        if row.name not in words:
+            if row.kind is Kind.RECORD and (at % _RECORD_WORDS or len(asked) % _RECORD_WORDS):
+                raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+            words[row.name] = _words_of(row, context)
+        found.append(words[row.name][at])
+    state = context.state.keep(reset_status_told=True) if "reset_status" in words else context.state
+    return state, tuple(found)
+
+
+def _words_of(row: Register, context: Context) -> tuple[int, ...]:
+    """Tell what all items of a row hold, as bits or words."""
+    values = _READ[row.name](context)
+    items: tuple[int, ...] = (values,) if isinstance(values, int) else tuple(values)
+    if row.kind is Kind.UINT32:
+        return counts_of(row, items[0], context.state.profile, big_endian=context.eeprom.big_endian)
+    mask = 0xFF if row.kind is Kind.INT8 else 0xFFFF
+    return tuple([item & mask for item in items])
+
+
+def series_bytes(model: Model) -> bytes:
+    """Tell a series as four bytes: 00 70 17 00.
+
+    Manual: 3.3.1; E75, E77.
+    """
+    return bytes.fromhex(f"00{model.series}00")
+
+
+def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
+    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (assumption).
+
+    Manual: 3.3.7; E67, E75.
+    """
+    letter, major, minor = str(firmware)[0], str(firmware)[1], str(firmware)[3:]
+    return int(letter, 36), int(major), int(minor)
+
+
+_RECORD_WORDS = 18
+
+
+def _records(context: Context) -> list[int]:
+    """Tell the records from the read index on; where there is none, zeros (assumption)."""
+    words: list[int] = []
+    for record in context.eeprom.log.window():
+        if record is None:
+            words += (0,) * _RECORD_WORDS
+        else:
+            time = (record.time & 0xFFFF, record.time >> 16)
+            words += record.words + (time[::-1] if context.eeprom.big_endian else time)
+    return words
+
+
+def _clock(at: int) -> Callable[[Context], int]:
+    return lambda it: date_of(it.eeprom.log.clock(it.now))[at]
+
+
+def _log_date(name: str, at: int) -> Callable[[Context], int]:
+    return lambda it: getattr(it.eeprom.log, name)[at]
+
+
+def _period(at: int) -> Callable[[Context], int]:
+    return lambda it: it.eeprom.log.period[at]
+
+
+_PERIOD_PARTS = ("hour", "minute", "second")
+
+_READ: dict[str, Callable[[Context], int | Iterable[int]]] = {
+    "analog_input": lambda it: words(it.state, it.signals),
+    "range_status": lambda it: faults(it.state, it.signals, it.eeprom.model.channels),
+    "temperature": lambda it: temperatures(it.state, it.signals),
+    "cjc_temperature": lambda it: round(cold_junction(it.state, it.signals) * 100),
+    "log_records": _records,
+    "type_code": lambda it: it.eeprom.type_codes,
+    "temperature_offset": lambda it: it.eeprom.channel_offsets,
+    "cjc_offset": lambda it: (
+        it.eeprom.channel_cjc_offsets if it.eeprom.model.series == "7019" else it.eeprom.channel_offsets
+    ),
+    "firmware_version": lambda it: int.from_bytes(bytes((0, *firmware_bytes(it.eeprom.firmware))), "big"),
+    "module_name": lambda it: int.from_bytes(series_bytes(it.eeprom.model), "big"),
+    "module_address": lambda it: it.eeprom.address,
+    "line_settings": lambda it: it.eeprom.line_settings.byte,
+    "module_type_code": lambda it: type_code(it.state),
+    "response_delay": lambda it: it.eeprom.response_delay,
+    "host_watchdog_timeout": lambda it: it.eeprom.host_watchdog_timeout,
+    "channel_mask": lambda it: it.state.enabled,
+    "channel_mask_high": lambda it: it.state.enabled >> 16,
+    "module_cjc_offset": lambda it: it.eeprom.cjc_offset,
+    "host_watchdog_timeout_count": lambda it: it.eeprom.host_watchdog_timeouts,
+    "cjc_update": lambda it: it.state.ram.cjc_update,
+    "protocol": lambda it: it.eeprom.protocol,
+    "filter": lambda it: it.eeprom.report_settings.filter.value,
+    "host_watchdog_mode": lambda it: it.eeprom.host_watchdog_mode,
+    "host_watchdog_enabled": lambda it: it.eeprom.host_watchdog_enabled,
+    "cjc_enabled": lambda it: it.eeprom.cjc_enabled,
+    "modbus_data_format": lambda it: it.eeprom.modbus_data_format,
+    "host_watchdog_timed_out": lambda it: it.eeprom.host_watchdog_timed_out,
+    "fast_mode": lambda it: it.eeprom.report_settings.fast_mode,
+    "reset_status": lambda it: not it.state.ram.reset_status_told,
+    "sampling_rate": lambda it: it.eeprom.sampling_rate_8_hz,
+    "open_wire_detection": lambda it: it.eeprom.open_wire_detection,
+    "single_ended": lambda it: it.eeprom.single_ended,
+    "big_endian": lambda it: it.eeprom.big_endian,
+    "rtc_epoch": lambda it: int(it.eeprom.log.clock(it.now) // 1) & 0xFFFFFFFF,
+    "log_last_index": lambda it: it.eeprom.log.last_index,
+    "log_read_index": lambda it: it.eeprom.log.read_index,
+    "log_status": lambda it: it.eeprom.log.running(it.now),
+    "log_command": lambda it: it.eeprom.log.command,
+    "log_overwrite": lambda it: it.eeprom.log.overwrite,
+    **{f"log_period_{part}": _period(at) for at, part in enumerate(_PERIOD_PARTS)},
+    **{f"rtc_{part}": _clock(at) for at, part in enumerate(DATE_PARTS)},
+    **{f"log_{name}_{part}": _log_date(name, at) for name in ("start", "end") for at, part in enumerate(DATE_PARTS)},
+}
+"""What each row holds: a number for each of its items, of two's complement where it is negative."""
+
+# --- writing ----------------------------------------------------------------------------------------------------------
+
+
+def write(context: Context, area: Area, start: int, items: Sequence[int]) -> State:
+    """Write coils or registers.
+
+    Special: one register of a number of two keeps the other as it is.
+    Errors: `RequestError`, see `_places`; 03 for what a row cannot hold (E94).
+    """
+    state, now = context.state, context.now
+    asked = range(start, start + len(items))
+    written: dict[str, tuple[Register, dict[int, int]]] = {}
+    for (row, at), item in zip(_places(state, area, asked, Access.READ), items, strict=True):
+        written.setdefault(row.name, (row, {}))[1][at] = item
+    values = {name: _values(row, new, context) for name, (row, new) in written.items()}
+    clock = {name.removeprefix("rtc_"): values.pop(name)[0] for name in sorted(values) if name in _CLOCK_NAMES}
+    for name, new_values in values.items():
+        state = _WRITE[name](context._replace(state=state, values=new_values))
+    return state.store(log=state.eeprom.log.set_clock(clock, now)) if clock else state
+
+
+_CLOCK_NAMES = frozenset(f"rtc_{part}" for part in DATE_PARTS)
+"""Parts of one date, which together must be a day that there is."""
+
+
+def _values(row: Register, new: dict[int, int], context: Context) -> tuple[Any, ...]:
+    """Tell the values of all items of a row after a write, if it can hold them."""
+    words = list((0,) * row.count if row.access is Access.WRITE else _words_of(row, context))
+    for at, item in new.items():
+        words[at] = item
+    profile, big_endian = context.state.profile, context.eeprom.big_endian
+    try:
+        value = value_of(row, tuple(words), 0, row.count, profile, big_endian=big_endian)
+        values = value if isinstance(value, tuple) else (value,)
+        held = [it for one in values for it in counts_of(row, one, profile, big_endian=big_endian)]
+        if row.name == "line_settings":
+            SetCommunicationSettings(context.eeprom.address, value, context.eeprom.protocol).check(profile)
+    except (DecodeError, EncodeError):
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
+    if held != words or (row.name == "host_watchdog_timeout_count" and value):
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+    return values
+
+
+def _counts(row_scale: int, values: Iterable[float]) -> tuple[int, ...]:
+    return tuple([round(value * row_scale) for value in values])
+
+
+def _set_cjc_offsets(context: Context) -> State:
+    if context.eeprom.model.series == "7019":
+        return context.state.store(channel_cjc_offsets=_counts(100, context.values))
+    return context.state.store(channel_offsets=_counts(10, context.values))
+
+
+def _set_mask(context: Context, mask: int, among: int) -> State:
+    """Switch channels; those that the connecting mode does not have cannot be switched on (2.13)."""
+    channels = (1 << context.state.profile.channels) - 1
+    if mask & ~channels:
+        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+    return enable_channels(context.state, mask, among & channels)
+
+
+def _set_type_codes(context: Context) -> State:
+    return context.state.store(type_codes=context.values)
+
+
+def _report(context: Context, **changes: Any) -> State:  # noqa: ANN401 - fields of `ReportSettings`
+    return context.state.store(report_settings=evolve(context.eeprom.report_settings, **changes))
+
+
+def _log(context: Context, **changes: Any) -> State:  # noqa: ANN401 - fields of `Log`
+    return context.state.store(log=evolve(context.eeprom.log, **changes).planned(context.now))
+
+
+def _set_log_date(name: str, part: str) -> Callable[[Context], State]:
+    def write_part(context: Context) -> State:
+        return _log(context, **{name: changed(getattr(context.eeprom.log, name), {part: context.value})})
+
+    return write_part
+
+
+def _set_period(at: int) -> Callable[[Context], State]:
+    def write_part(context: Context) -> State:
+        period = context.eeprom.log.period
+        return _log(context, period=(*period[:at], context.value, *period[at + 1 :]))
+
+    return write_part
+
+
+_WRITE: dict[str, Callable[[Context], State]] = {
+    "type_code": _set_type_codes,
+    "temperature_offset": lambda it: it.state.store(channel_offsets=_counts(10, it.values)),
+    "cjc_offset": _set_cjc_offsets,
+    "module_address": lambda it: set_address(it.state, it.value),
+    "line_settings": lambda it: set_line(it.state, it.value, it.eeprom.protocol),
+    "module_type_code": lambda it: set_types(it.state, it.value),
+    "response_delay": lambda it: it.state.store(response_delay=it.value),
+    "host_watchdog_timeout": lambda it: set_host_watchdog(
+        it.state, it.now, enabled=it.eeprom.host_watchdog_enabled, timeout=round(it.value * 10)
+    ),
+    "channel_mask": lambda it: _set_mask(it, it.value, 0xFFFF),
+    "channel_mask_high": lambda it: _set_mask(it, it.value << 16, 0xF0000),
+    "module_cjc_offset": lambda it: it.state.store(cjc_offset=round(it.value * 100)),
+    "host_watchdog_timeout_count": lambda it: it.state.store(host_watchdog_timeouts=it.value),
+    "cjc_update": lambda it: set_cjc_update(it.state, it.value, it.signals),
+    "protocol": lambda it: set_line(it.state, it.eeprom.line_settings, it.value),
+    "filter": lambda it: _report(it, filter=it.value),
+    "host_watchdog_mode": lambda it: it.state.store(host_watchdog_mode=it.value),
+    "host_watchdog_enabled": lambda it: set_host_watchdog(
+        it.state, it.now, enabled=it.value, timeout=it.eeprom.host_watchdog_timeout
+    ),
+    "cjc_enabled": lambda it: it.state.store(cjc_enabled=it.value),
+    "modbus_data_format": lambda it: it.state.store(modbus_data_format=it.value),
+    "host_watchdog_timed_out": lambda it: it.state.store(
+        host_watchdog_timed_out=it.eeprom.host_watchdog_timed_out and not it.value
+    ),
+    "fast_mode": lambda it: _report(it, fast_mode=it.value),
+    "load_factory_calibration": lambda it: it.state,
+    "sampling_rate": lambda it: it.state.store(sampling_rate_8_hz=it.value),
+    "open_wire_detection": lambda it: it.state.store(open_wire_detection=it.value),
+    "single_ended": lambda it: it.state.store(single_ended=it.value),
+    "big_endian": lambda it: it.state.store(big_endian=it.value),
+    "rtc_epoch": lambda it: it.state.store(log=it.eeprom.log.set_epoch(it.value, it.now)),
+    "log_read_index": lambda it: it.state.store(log=evolve(it.eeprom.log, read_index=it.value)),
+    "log_command": lambda it: _log(it, command=LogCommand(it.value)),
+    "log_overwrite": lambda it: it.state.store(log=evolve(it.eeprom.log, overwrite=bool(it.value))),
+    **{f"log_period_{part}": _set_period(at) for at, part in enumerate(_PERIOD_PARTS)},
+    **{f"log_{name}_{part}": _set_log_date(name, part) for name in ("start", "end") for part in DATE_PARTS},
+}
+"""What writing each row does."""

@@ -1,0 +1,62 @@
+"""What is connected to the inputs of a module, in physical units.
+
+Laws: a signal is what a meter would show at the terminals; what the module makes of it is its own business.
+"""
+
+from math import isfinite
+
+from attrs import field, frozen
+
+from i7000.errors import EncodeError
+from i7000.type_codes import Unit
+
+__all__ = ["OPEN_WIRE", "Signal", "Signals"]
+
+
+@frozen
+class Signal:
+    """What is on one input: a voltage, a current, or the temperature of a thermocouple's hot end.
+
+    Errors: `EncodeError` for what is not finite.
+    """
+
+    value: float
+    unit: Unit
+
+    def __attrs_post_init__(self) -> None:
+        if not isfinite(self.value):
+            raise EncodeError("value", self.value, "a finite number", "1.11")
+
+
+OPEN_WIRE = None
+"""An input that nothing is connected to."""
+
+_COLDEST, _HOTTEST = -200.0, 200.0
+
+
+@frozen(cache_hash=True)
+class Signals:
+    """What is on all inputs of a module, channel 0 first; those that are not named are open.
+
+    Unit: `cold_junction`, the temperature at the terminals, in degrees Celsius.
+    Errors: `EncodeError` for a temperature that no module survives.
+
+    >>> Signals.of(Unit.VOLT, 1.5, -2.0).channel(1), Signals().channel(7)
+    (Signal(value=-2.0, unit=<Unit.VOLT: 'V'>), None)
+    """
+
+    channels: tuple[Signal | None, ...] = ()
+    cold_junction: float = field(default=25.0, kw_only=True, converter=float)
+
+    def __attrs_post_init__(self) -> None:
+        if not _COLDEST <= self.cold_junction <= _HOTTEST:
+            raise EncodeError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
+
+    @classmethod
+    def of(cls, unit: Unit, *values: float, cold_junction: float = 25.0) -> "Signals":
+        """Make signals that all have the same unit."""
+        return cls(tuple(Signal(value, unit) for value in values), cold_junction=cold_junction)
+
+    def channel(self, number: int) -> Signal | None:
+        """Tell what is on one channel."""
+        return self.channels[number] if number < len(self.channels) else OPEN_WIRE

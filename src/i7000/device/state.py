@@ -1,0 +1,279 @@
+"""What a module remembers, with and without power, and how power changes it (manual 1.9, 1.12.2, A.1).
+
+Laws: what survives a power cycle is in `Eeprom`, all else in `Ram`; both are frozen, so a power cycle is a function
+too. A `State` always has the profile that its bytes are read with.
+"""
+
+from functools import lru_cache
+from typing import Any
+
+from attrs import evolve, field, frozen
+
+from i7000.dcon import SetModuleName
+from i7000.device.logger import Log
+from i7000.device.signals import Signals
+from i7000.errors import EncodeError
+from i7000.models import Firmware, Model
+from i7000.profile import Profile
+from i7000.settings import (
+    BaudRate,
+    CjcUpdate,
+    DataFormat,
+    LineSettings,
+    ModbusDataFormat,
+    Protocol,
+    ReportSettings,
+)
+from i7000.type_codes import TypeCode
+
+__all__ = ["NEWEST", "Eeprom", "Ram", "State", "factory", "power_on"]
+
+NEWEST = Firmware("B4.5")
+"""The latest firmware that the manual names: what a module has that is not said to have another (assumption)."""
+
+
+def inputs_of(model: Model) -> int:
+    """Tell how many channels a model has in the connecting mode that has most."""
+    return model.single_ended_channels or model.channels
+
+
+@frozen(cache_hash=True)
+class Eeprom:
+    """What a module remembers without power: the factory's settings where nothing else is said.
+
+    Shape: per-channel tuples have an entry for each channel of the single-ended mode, where there is one.
+    Errors: `EncodeError` for what no module can have stored.
+    Manual: 1.9, 1.11, 2, 3.4; E35, E72, E83, E95.
+    """
+
+    model: Model
+    firmware: Firmware
+    type_codes: tuple[TypeCode, ...]
+    report_settings: ReportSettings
+    name: str
+    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (assumption)."""
+    protocol: Protocol
+    channel_mask: int
+    channel_offsets: tuple[int, ...]
+    """Tenths of a degree: CJC offsets of the 7018 series, temperature offsets of the 7019 series (E62)."""
+    channel_cjc_offsets: tuple[int, ...]
+    """Hundredths of a degree, 7019 series only (40353..)."""
+    open_wire_detection: bool
+    address: int = 1
+    line_settings: LineSettings = LineSettings()  # noqa: RUF009 - frozen
+    single_ended: bool = False
+    modbus_data_format: ModbusDataFormat = ModbusDataFormat.HEX
+    cjc_offset: int = 0
+    """Hundredths of a degree."""
+    cjc_enabled: bool = True
+    host_watchdog_enabled: bool = False
+    host_watchdog_timeout: int = 0
+    """Tenths of a second."""
+    host_watchdog_timed_out: bool = False
+    host_watchdog_timeouts: int = 0
+    """How often it has timed out (40492); kept without power, as the status is (assumption)."""
+    host_watchdog_mode: bool = False
+    """Coil 00260, which means nothing to modules without outputs (E30)."""
+    response_delay: int = 0
+    """Milliseconds, by Modbus."""
+    sampling_rate_8_hz: bool = True
+    """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""
+    big_endian: bool = False
+    log: Log = field(default=Log(), hash=False)
+
+    def __attrs_post_init__(self) -> None:
+        inputs = inputs_of(self.model)
+        self._check_numbers(inputs)
+        self._check_kinds()
+        SetModuleName(self.address, self.name)  # which refuses what no module can be named
+        for name in ("type_codes", "channel_offsets", "channel_cjc_offsets"):
+            if len(getattr(self, name)) != inputs:
+                raise EncodeError(name, getattr(self, name), f"{inputs} of them: {self.model.value}", "1.3")
+        if self.protocol not in self.model.protocols:
+            raise EncodeError("protocol", self.protocol, f"DCON: {self.model.value} has no Modbus", "1.12")
+        profile = profile_of(self)  # which refuses types that the channels cannot have, but not those of no channel now
+        if not all(map(profile.supports, self.type_codes[profile.channels :])):
+            raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
+
+    def _check_numbers(self, inputs: int) -> None:
+        limits = {
+            "address": (0, 0xFF),
+            "channel_mask": (0, (1 << inputs) - 1),
+            "cjc_offset": (-0x1000, 0x1000),
+            "host_watchdog_timeout": (0, 0xFF),
+            "host_watchdog_timeouts": (0, 0xFFFF),
+            "response_delay": (0, 30),
+        }
+        for name, (low, high) in limits.items():
+            _check_number(name, getattr(self, name), low, high)
+        for offset in self.channel_offsets:
+            _check_number("channel_offsets", offset, -0x80, 0x7F)
+        for offset in self.channel_cjc_offsets:
+            _check_number("channel_cjc_offsets", offset, -0x1000, 0x1000)
+
+    def _check_kinds(self) -> None:
+        if not isinstance(self.line_settings.baud_rate, BaudRate):
+            raise EncodeError("line_settings", self.line_settings, "a baud rate code of 03..0A", "1.11")
+        if not isinstance(self.report_settings.data_format, DataFormat) or self.report_settings.reserved:
+            raise EncodeError(
+                "report_settings", self.report_settings, "a data format of 0..2, no reserved bits", "1.11"
+            )
+
+
+def _check_number(name: str, value: int, low: int, high: int) -> None:
+    if not low <= value <= high:
+        raise EncodeError(name, value, f"{low}..{high}", "3.4")
+
+
+def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
+    """Tell what a module remembers that comes from the factory.
+
+    Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
+        has type 0E, the first that it can have (assumption).
+    Manual: 1.9; E35, E83, E95.
+
+    >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
+    ('7018', 'MODBUS_RTU', 32)
+    """
+    inputs = inputs_of(model)
+    zeros = (0,) * inputs
+    return Eeprom(
+        model=model,
+        firmware=NEWEST if firmware is None else firmware,
+        type_codes=(model.default_type or TypeCode.J,) * inputs,
+        report_settings=ReportSettings(fast_mode=model.fast_mode_default),
+        name=(model.series + model.suffix.replace("-", ""))[:6],
+        protocol=max(model.protocols),
+        channel_mask=(1 << inputs) - 1,
+        channel_offsets=zeros,
+        channel_cjc_offsets=zeros,
+        open_wire_detection=model.open_wire_detection,
+    )
+
+
+@frozen
+class Ram:
+    """What a module forgets without power.
+
+    Time: moments are those of the clock that `i7000.device.step` is given.
+    Manual: 2.2, 2.21, 2.31, 2.32, 2.34, A.1, A.2.
+    """
+
+    address: int
+    """What it answers to: 00 after power-on in INIT mode."""
+    line_settings: LineSettings
+    checksum: bool
+    protocol: Protocol
+    init_mode: bool
+    """Whether power came with the INIT switch set."""
+    init_switch: bool
+    """Whether the switch is set now (E17)."""
+    fed_at: float
+    """When the host watchdog last heard of the host."""
+    sampled: Signals | None = None
+    """What was on the inputs at the last ``#**``."""
+    sampled_data_told: bool = False
+    calibration_enabled: bool = False
+    soft_init_timeout: int = 0
+    """Seconds."""
+    soft_init_until: float | None = None
+    """Until when line and checksum can be changed."""
+    cjc_update: CjcUpdate = CjcUpdate.STARTED
+    """Not kept without power: power-on starts the update, the default (assumption)."""
+    held_cold_junction: float | None = None
+    """The cold junction's temperature when its update ended, in degrees Celsius."""
+    reset_status_told: bool = False
+
+
+@frozen
+class State:
+    """A module with power; `Eeprom` and `Ram` are changed through `store` and `keep`."""
+
+    eeprom: Eeprom
+    ram: Ram
+    profile: Profile = field(eq=False, repr=False, kw_only=True)
+    """What a host would have to know to understand it, now."""
+
+    @profile.default
+    def _profile(self) -> Profile:
+        return profile_of(self.eeprom, checksum=self.ram.checksum)
+
+    def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
+        """Change the EEPROM."""
+        return State(evolve(self.eeprom, **changes), self.ram)
+
+    def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
+        """Change the RAM."""
+        ram = evolve(self.ram, **changes)
+        if ram.checksum != self.ram.checksum:
+            return State(self.eeprom, ram)
+        return State(self.eeprom, ram, profile=self.profile)
+
+    def switched(self, *, init_switch: bool) -> "State":
+        """Move the INIT switch, or INIT* terminal, while the power is on (E17)."""
+        return self.keep(init_switch=init_switch)
+
+    @property
+    def response_delay(self) -> float:
+        """Seconds that it waits before it answers; the setting is for Modbus only."""
+        return self.eeprom.response_delay / 1000 if self.ram.protocol is Protocol.MODBUS_RTU else 0.0
+
+    @property
+    def enabled(self) -> int:
+        """The mask of the channels that are on, of those that the connecting mode has."""
+        return self.eeprom.channel_mask & ((1 << self.profile.channels) - 1)
+
+
+def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
+    """Give power to a module; with a running one's EEPROM, a power cycle.
+
+    Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
+    Manual: 1.12.2, A.1; E101.
+
+    >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
+    >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
+    (0, 'DCON', 1, 'MODBUS_RTU')
+    """
+    ram = Ram(
+        address=0 if init_switch else eeprom.address,
+        line_settings=LineSettings() if init_switch else eeprom.line_settings,
+        checksum=not init_switch and eeprom.report_settings.checksum,
+        protocol=Protocol.DCON if init_switch else eeprom.protocol,
+        init_mode=init_switch,
+        init_switch=init_switch,
+        fed_at=now,
+    )
+    return State(eeprom, ram)
+
+
+def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:
+    """Tell what a host would have to know of a module with this EEPROM."""
+    return _profile(
+        eeprom.model,
+        eeprom.firmware.text,
+        eeprom.type_codes,
+        eeprom.single_ended,
+        checksum,
+        eeprom.report_settings.data_format,
+        eeprom.modbus_data_format,
+    )
+
+
+@lru_cache(maxsize=1024)
+def _profile(  # noqa: PLR0913, PLR0917 - what a profile is made of
+    model: Model,
+    firmware: str,
+    type_codes: tuple[TypeCode, ...],
+    single_ended: bool,  # noqa: FBT001 - positional for the cache
+    checksum: bool,  # noqa: FBT001
+    data_format: DataFormat,
+    modbus_data_format: ModbusDataFormat,
+) -> Profile:
+    known = Profile(model, firmware=Firmware(firmware), single_ended=single_ended, type_codes=())
+    return evolve(
+        known,
+        type_codes=type_codes[: known.channels],
+        checksum=checksum,
+        data_format=data_format,
+        modbus_data_format=modbus_data_format,
+    )

@@ -1,0 +1,60 @@
+"""A driver that waits: pyserial and `i7000.host`, nothing else."""
+
+import sys
+from collections.abc import Sequence
+from time import monotonic
+from typing import Any, TypeVar, overload
+
+import serial
+
+from i7000 import Profile, dcon, modbus
+from i7000.examples.task import open_port, read_task
+from i7000.host import Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
+
+__all__ = ["Driver", "main"]
+
+RD = TypeVar("RD", bound=dcon.Response)
+RM = TypeVar("RM", bound=modbus.Response)
+
+
+class Driver:
+    """A port, and what is known of the line that it leads to."""
+
+    def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
+        self.port = port
+        self.bus = bus
+
+    @overload
+    def ask(self, command: dcon.Command[RD], profile: Profile) -> Outcome[RD]: ...
+    @overload
+    def ask(self, command: modbus.Request[RM], profile: Profile) -> Outcome[RM]: ...
+    @overload
+    def ask(self, command: dcon.Broadcast, profile: Profile) -> Sent: ...
+    def ask(self, command: Any, profile: Profile) -> Any:
+        """Send a command and wait for its outcome."""
+        self.bus, _ = receive(self.bus, self.port.read(self.port.in_waiting), monotonic())
+        self.bus, wire = send(self.bus, command, profile, monotonic())
+        self.port.write(wire)
+        outcome = None
+        while (deadline := next_deadline(self.bus)) is not None:
+            self.port.timeout = max(0.0, deadline - monotonic())
+            data = self.port.read()
+            data += self.port.read(self.port.in_waiting)
+            self.bus, events = receive(self.bus, data, monotonic())
+            for event in events:
+                if isinstance(event, Transmit):
+                    self.port.write(event.wire)
+                elif isinstance(event, Ended):
+                    outcome = event
+        return outcome
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Read the inputs of a module."""
+    task = read_task(arguments)
+    with open_port(task) as port:
+        return task.show(Driver(port, task.bus).ask(task.command, task.profile))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,67 @@
+"""What the example drivers are told and what they print: the same for both."""
+
+from argparse import ArgumentParser
+from collections.abc import Sequence
+from typing import Any
+
+import serial
+from attrs import evolve, frozen
+
+from i7000 import BaudRate, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
+from i7000.host import Answered, Bus, Outcome
+
+__all__ = ["Task", "open_port", "read_task"]
+
+
+@frozen
+class Task:
+    """To read the inputs of a module."""
+
+    port: str
+    bus: Bus[Any]
+    profile: Profile
+    command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters
+
+    def show(self, outcome: Outcome[Any]) -> int:
+        """Print what came of it; the exit code of the program is 0 for an answer."""
+        if not isinstance(outcome, Answered):
+            print(outcome)  # noqa: T201 - what a program prints
+            return 1
+        for channel, reading in enumerate(self._readings(outcome.response)):
+            print(channel, reading.value, reading.unit, reading.status.value)  # noqa: T201
+        return 0
+
+    def _readings(self, response: Any) -> tuple[Reading, ...]:  # noqa: ANN401 - of either protocol
+        if isinstance(response, modbus.InputRegisters):
+            return modbus.readings(response.values, self.profile)
+        return dcon.readings(response, self.profile)
+
+
+def read_task(arguments: Sequence[str] | None = None) -> Task:
+    """Read the arguments of the command line."""
+    parser = ArgumentParser(description="Read the analog inputs of a module.")
+    parser.add_argument("port", help="the serial port, or any URL that pyserial knows")
+    parser.add_argument("--model", type=Model.find, required=True)
+    parser.add_argument("--address", type=lambda text: int(text, 16), default=0x01, help="in hex; 01 unless given")
+    parser.add_argument("--type", type=lambda text: TypeCode[text], help="of all channels: K, V_10, MA_4_20 ...")
+    parser.add_argument("--baud", type=int, default=9600)
+    parser.add_argument("--checksum", action="store_true", help="DCON frames carry a checksum")
+    parser.add_argument("--modbus", action="store_true", help="ask by Modbus RTU instead of DCON")
+    parser.add_argument("--echo", action="store_true", help="the adapter hears what it sends")
+    given = parser.parse_args(arguments)
+    profile = Profile(given.model, checksum=given.checksum)
+    if given.type is not None:
+        profile = evolve(profile, type_codes=(given.type,) * profile.channels)
+    command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters = dcon.ReadAnalogInputs(given.address)
+    if given.modbus:
+        command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
+    line = LineSettings(BaudRate[f"BAUD_{given.baud}"])
+    return Task(given.port, Bus[Any](line, echo=given.echo), profile, command)
+
+
+def open_port(task: Task) -> serial.Serial:
+    """Open the port with the settings of the line."""
+    line = task.bus.line
+    rate = BaudRate(line.baud_rate).bits_per_second
+    form = line.character_format
+    return serial.serial_for_url(task.port, rate, parity=form.parity, stopbits=form.stop_bits)

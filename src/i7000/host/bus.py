@@ -1,0 +1,254 @@
+"""The state of a line and the four functions that drive it; all that depends on time is here (manual 2, 3).
+
+A driver moves bytes and sleeps: it writes what `send` and `Transmit` say, hands what it reads to `receive`, and calls
+`wake` when the time of `next_deadline` has come. Times are seconds of one clock that never goes back.
+
+Laws: one request is open at a time, and it ends in exactly one outcome, by `receive` or by `wake`. Nothing is taken for
+an answer but what came while the request was waiting for it: after a deadline the line is left silent for a while, so
+that a late response comes when it cannot be mistaken for that to the next request; ``>`` responses do not say whose
+they are. For this, what has come in has to be handed to `receive` before the next `send`.
+"""
+
+from collections.abc import Iterable
+from math import inf, isfinite
+from typing import Any, Generic, Never, TypeVar, overload
+
+from attrs import evolve, field, frozen
+
+from i7000 import dcon, modbus
+from i7000.errors import DecodeError, EncodeError, Noise
+from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
+from i7000.host.exchange import Exchange, finish, split
+from i7000.profile import Profile
+from i7000.settings import BaudRate, LineSettings
+
+__all__ = ["Bus", "Policy", "next_deadline", "receive", "send", "wake"]
+
+R = TypeVar("R")
+RD = TypeVar("RD", bound=dcon.Response)
+RM = TypeVar("RM", bound=modbus.Response)
+
+_SILENT_CHARACTERS = 3.5
+_SHORTEST_SILENCE = 0.00175
+"""Seconds: what the Modbus specification has for lines faster than 19200."""
+
+
+@frozen(kw_only=True)
+class Policy:
+    """What a host allows for.
+
+    Unit: seconds.
+    Errors: `EncodeError` for what is no time or no number of times.
+    """
+
+    retries: int = 2
+    """How often a request that has no answer is sent again: the module may then carry it out again."""
+    turnaround: float = 0.2
+    """From the last character of a request to the first of its response: what the module takes, which the manual does
+    not say, its response delay (40488), and what adapters, operating system and network add."""
+    grace: float = 0.2
+    """How long the line is left silent after a deadline; a response later than that can be mistaken."""
+
+    def __attrs_post_init__(self) -> None:
+        if not isinstance(self.retries, int) or isinstance(self.retries, bool) or self.retries < 0:
+            raise EncodeError("retries", self.retries, "0 or more", "2")
+        for name, value in (("turnaround", self.turnaround), ("grace", self.grace)):
+            if not isinstance(value, int | float) or not isfinite(value) or value < 0:
+                raise EncodeError(name, value, "seconds, 0 or more", "2")
+
+
+@frozen
+class Pending(Generic[R]):
+    """A request that has no outcome yet."""
+
+    exchange: Exchange[R]
+    retries: int
+    """How often it may be sent again."""
+    due: float
+    """When it goes out; once it has, its deadline."""
+    latest: float = inf
+    """When it goes out even if the line is not silent."""
+    sent: bool = False
+    echoed: bool = False
+    """Whether its echo was heard, or none is expected."""
+
+
+@frozen
+class Bus(Generic[R]):
+    """A line with modules, R being the response that is waited for; a new one is ``Bus[Any]()``.
+
+    Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the rest is what happened.
+    Errors: `EncodeError` for a baud rate that is not defined.
+    """
+
+    line: LineSettings = field(factory=LineSettings)
+    policy: Policy = field(factory=Policy)
+    echo: bool = False
+    """Whether the adapter hears what it sends, as 2-wire ones may. Its echo is dropped, and nothing before it is an
+    answer. A Modbus write whose echo is not expected is answered by it."""
+
+    pending: Pending[R] | None = None
+    last: Exchange[Any] | None = None
+    """What was sent last: whose answer may still come."""
+    rest: bytes = b""
+    """What was heard and may still become a frame."""
+    heard_at: float = -inf
+    """When the last character ended that was on the line, sent or heard."""
+    quiet_until: float = -inf
+    """The end of the pause that is owed."""
+
+    def __attrs_post_init__(self) -> None:
+        if not isinstance(self.line.baud_rate, BaudRate):
+            raise EncodeError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
+
+    @property
+    def character_time(self) -> float:
+        """Seconds that a character takes on the line."""
+        return self.line.character_format.bits / BaudRate(self.line.baud_rate).bits_per_second
+
+    @property
+    def silence(self) -> float:
+        """Seconds between Modbus frames: 3.5 characters."""
+        return max(_SILENT_CHARACTERS * self.character_time, _SHORTEST_SILENCE)
+
+
+@overload
+def send(bus: Bus[Any], command: dcon.Command[RD], profile: Profile, now: float) -> tuple[Bus[RD], bytes]: ...
+@overload
+def send(bus: Bus[Any], command: modbus.Request[RM], profile: Profile, now: float) -> tuple[Bus[RM], bytes]: ...
+@overload
+def send(bus: Bus[Any], command: dcon.Broadcast, profile: Profile, now: float) -> tuple[Bus[Never], bytes]: ...
+def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tuple[Bus[Any], bytes]:
+    r"""Open a request, and tell the bytes to be written now: none if a pause is owed, then `wake` tells them later.
+
+    Special: of a broadcast, `profile` tells only whether it has a checksum. What had begun to come in is forgotten.
+    Errors: `EncodeError` if the module does not have the command, or if the request before has no outcome yet.
+    Manual: 2, 3.
+
+    >>> from i7000 import Model
+    >>> bus, wire = send(Bus[Any](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
+    >>> wire
+    b'$012\r'
+    >>> receive(bus, b"!01050600\r", 0.1)[1][0].response.type_code
+    <TypeCode.V_2_5: 5>
+    """
+    if bus.pending:
+        raise EncodeError("command", command, "none before the one that was sent has its outcome", "2")
+    exchange = Exchange[Any].of(command, profile)
+    due = max(now, bus.quiet_until, bus.heard_at + _silence(bus, exchange))
+    bus = evolve(bus, pending=Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange)))
+    bus, events = _transmit(bus, now)
+    return bus, b"".join(event.wire for event in events)
+
+
+def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """Take what has come in, all of it or any piece, and tell what it means.
+
+    Shape: the events are in the order in which things happened.
+    Manual: 2, 3.
+    """
+    events: tuple[Event[R], ...] = ()
+    if data:
+        if bus.pending and bus.pending.due < now:
+            bus, events = _expire(bus, bus.pending)
+        bus, heard = _hear(bus, data, now)
+        events += heard
+    if bus.pending and bus.pending.due <= now:
+        bus, over = _expire(bus, bus.pending)
+        events += over
+    bus, sent = _transmit(bus, now)
+    return bus, (*events, *sent)
+
+
+def wake(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """Tell what the passing of time means; to be called when `next_deadline` has come, and harmless before.
+
+    >>> from i7000 import Model
+    >>> bus, wire = send(Bus[Any](policy=Policy(retries=0)), dcon.HostOk(), Profile(Model.I_7018), 0.0)
+    >>> wake(bus, next_deadline(bus))[1]
+    (Sent(command=HostOk()),)
+    """
+    return receive(bus, b"", now)
+
+
+def next_deadline(bus: Bus[Any]) -> float | None:
+    """Tell when to call `wake`, whatever comes in or does not; None: never, no request is open."""
+    return bus.pending.due if bus.pending else None
+
+
+# --- the steps --------------------------------------------------------------------------------------------------------
+
+
+def _silence(bus: Bus[Any], exchange: Exchange[Any]) -> float:
+    """Tell the silence that `exchange` needs before it: that of RTU frames, and of what follows them."""
+    return bus.silence if exchange.rtu or (bus.last and bus.last.rtu) else 0.0
+
+
+def _allowance(bus: Bus[Any], exchange: Exchange[Any]) -> float:
+    """Tell the time from when a request goes out to its deadline.
+
+    Special: the Modbus specification wants time for the modules after a broadcast too.
+    """
+    characters = len(exchange.wire) + exchange.longest_response
+    turnaround = bus.policy.turnaround if exchange.answered or exchange.rtu else 0.0
+    return characters * bus.character_time + turnaround + exchange.pause
+
+
+def _transmit(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Transmit, ...]]:
+    """Send the open request if its time has come."""
+    if not bus.pending or bus.pending.sent or now < bus.pending.due:
+        return bus, ()
+    exchange = bus.pending.exchange
+    end = now + len(exchange.wire) * bus.character_time
+    sent = evolve(bus.pending, sent=True, due=now + _allowance(bus, exchange), echoed=not bus.echo)
+    bus = evolve(bus, pending=sent, last=exchange, rest=b"", heard_at=end, quiet_until=end + exchange.pause)
+    return bus, (Transmit(exchange.wire),)
+
+
+def _hear(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    found, rest = split(bus.last, bus.rest + data, echo=bus.echo)
+    bus = evolve(bus, rest=rest, heard_at=max(bus.heard_at, now))
+    if bus.pending and not bus.pending.sent:
+        silent = min(now + _silence(bus, bus.pending.exchange), bus.pending.latest)
+        bus = evolve(bus, pending=evolve(bus.pending, due=max(bus.pending.due, silent)))
+    return _take(bus, found)
+
+
+def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """Tell what frames and noise are, in order."""
+    events: list[Event[R]] = []
+    for frame in found:
+        request = bus.pending
+        if isinstance(frame, Noise):
+            events.append(frame)
+        elif not request or not request.sent:
+            events.append(Late(frame))
+        elif not request.echoed and frame == request.exchange.wire:
+            bus = evolve(bus, pending=evolve(request, echoed=True))
+        elif not request.echoed or not request.exchange.answered:
+            events.append(Late(frame))
+        else:
+            try:
+                events.append(request.exchange.read(frame))
+            except DecodeError as error:
+                events.append(Rejected(frame, error.fault, str(error)))
+            else:
+                bus = evolve(bus, pending=None)
+    return bus, tuple(events)
+
+
+def _expire(bus: Bus[R], request: Pending[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """End a try at its deadline: what came before it counts, even if nothing but silence shows that it is whole."""
+    if not request.sent:
+        return bus, ()
+    bus, events = _take(evolve(bus, rest=b""), finish(request.exchange, bus.rest, echo=bus.echo))
+    if not bus.pending:
+        return bus, events
+    if not request.exchange.answered:
+        return evolve(bus, pending=None), (*events, Sent(request.exchange.command))
+    over = request.due + bus.policy.grace
+    if not request.retries:
+        return evolve(bus, pending=None, quiet_until=over), (*events, TimedOut(request.exchange.command))
+    due = max(over, bus.heard_at + _silence(bus, request.exchange))
+    again = Pending(request.exchange, request.retries - 1, due, due + _allowance(bus, request.exchange))
+    return evolve(bus, pending=again), events

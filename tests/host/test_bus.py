@@ -1,0 +1,572 @@
+"""What a host sends when, and what it takes for the answer, rule by rule; times are those of a line at 9600 N81."""
+
+from typing import Any
+
+import pytest
+from attrs import evolve
+
+from i7000 import (
+    BaudRate,
+    CharacterFormat,
+    EncodeError,
+    Fault,
+    Firmware,
+    LineSettings,
+    Model,
+    Noise,
+    Profile,
+    Protocol,
+    dcon,
+    modbus,
+)
+from i7000.host import (
+    Answered,
+    AnyCommand,
+    Bus,
+    Declined,
+    Event,
+    Late,
+    Policy,
+    Rejected,
+    Sent,
+    TimedOut,
+    Transmit,
+    next_deadline,
+    receive,
+    send,
+    wake,
+)
+
+CHARACTER = 10 / 9600
+SILENCE = 3.5 * CHARACTER
+ONCE = Policy(retries=0, turnaround=0.1, grace=0.05)
+M7019 = Profile(Model.M_7019R)
+SEALED = evolve(M7019, checksum=True)
+OLD = Profile(Model.I_7019R, firmware=Firmware("B2.6"))
+
+READ = dcon.ReadChannelMask(0x01)
+READ_WIRE, MASK_WIRE = b"$016\r", b"!01FF\r"
+MASK = Answered(READ, dcon.ChannelMask(0x01, 0xFF))
+INPUTS = dcon.ReadAnalogInputs(0x01)
+INPUTS_WIRE = b">" + b"+0025.1" * 8 + b"\r"
+COIL = modbus.WriteSingleCoil(0x01, 2, value=True)
+COIL_WIRE = modbus.encode(COIL)
+COIL_ANSWER = Answered(COIL, modbus.SingleCoilWritten(0x01, 2, value=True))
+WORDS = modbus.ReadInputRegisters(0x01, 0, 2)
+WORDS_WIRE = modbus.encode(modbus.InputRegisters(0x01, (1, 2)))
+
+
+def idle(**changes: Any) -> Bus[Any]:
+    return Bus[Any](policy=ONCE, **changes)
+
+
+def ask(bus: Bus[Any], command: AnyCommand, profile: Profile = M7019, now: float = 0.0) -> Bus[Any]:
+    """Send what goes out at once."""
+    bus, wire = send(bus, command, profile, now)
+
+    assert wire
+    return bus
+
+
+def hear(bus: Bus[Any], *pieces: bytes, now: float = 0.05) -> tuple[Bus[Any], tuple[Event[Any], ...]]:
+    """Receive bytes one piece after another, and tell all the events."""
+    events: tuple[Event[Any], ...] = ()
+    for piece in pieces:
+        bus, found = receive(bus, piece, now)
+        events += found
+    return bus, events
+
+
+def due(bus: Bus[Any]) -> float:
+    deadline = next_deadline(bus)
+
+    assert deadline is not None
+    return deadline
+
+
+# --- sending ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("command", "profile", "wire"),
+    [
+        (READ, M7019, READ_WIRE),
+        (READ, SEALED, b"$016BB\r"),
+        (dcon.HostOk(), SEALED, b"~**D2\r"),
+        (COIL, M7019, COIL_WIRE),
+    ],
+)
+def test_a_request_goes_out_at_once_on_an_idle_line(command: Any, profile: Profile, wire: bytes) -> None:
+    assert wire == send(idle(), command, profile, 0.0)[1]
+
+
+def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing() -> None:
+    with pytest.raises(EncodeError, match="M-7018 has no CJC update setting"):
+        send(idle(), dcon.ReadCjcUpdate(0x01), Profile(Model.M_7018), 0.0)
+
+
+@pytest.mark.parametrize("second", [READ, COIL, dcon.HostOk()])
+def test_a_second_request_is_refused_while_one_is_open(second: Any) -> None:
+    bus = ask(idle(), READ)
+
+    with pytest.raises(EncodeError, match=r"command cannot be .*: none before the one that was sent has its outcome"):
+        send(bus, second, M7019, 10.0)
+
+
+def test_an_idle_line_has_no_deadline() -> None:
+    bus, _ = hear(ask(idle(), READ), MASK_WIRE)
+
+    assert [next_deadline(idle()), next_deadline(bus)] == [None, None]
+
+
+# --- deadlines --------------------------------------------------------------------------------------------------------
+
+DEADLINES: list[tuple[AnyCommand, Profile, float]] = [
+    (READ, M7019, (5 + 6) * CHARACTER + 0.1),
+    (READ, SEALED, (7 + 8) * CHARACTER + 0.1),
+    (INPUTS, M7019, (4 + 58) * CHARACTER + 0.1),
+    (INPUTS, Profile(Model.M_7017Z, single_ended=True), (4 + 142) * CHARACTER + 0.1),
+    (dcon.ReadModuleName(0x01), M7019, (5 + 256 - 2) * CHARACTER + 0.1),
+    (dcon.ReloadDefaultCalibration(0x01), M7019, (6 + 4) * CHARACTER + 0.1 + 3),
+    (dcon.CalibrateChannelZero(0x01, 0), OLD, (7 + 4) * CHARACTER + 0.1 + 16),
+    (dcon.CalibrateChannelZero(0x01, 0), M7019, (7 + 4) * CHARACTER + 0.1),
+    (dcon.SynchronizedSampling(), M7019, 4 * CHARACTER + 0.002),
+    (dcon.HostOk(), SEALED, 6 * CHARACTER + 0.002),
+    (WORDS, M7019, (8 + 9) * CHARACTER + 0.1),
+    (modbus.ReadCoils(0x01, 0, 9), M7019, (8 + 7) * CHARACTER + 0.1),
+    (COIL, M7019, (8 + 8) * CHARACTER + 0.1),
+    (modbus.ReadChannelMask(0x01), Profile(Model.M_7017mC_16), (5 + 7) * CHARACTER + 0.1),
+    (modbus.ReadCjcUpdate(0x01), M7019, (5 + 6) * CHARACTER + 0.1),
+    (modbus.WriteSingleCoil(0x01, 271, value=True), M7019, (8 + 8) * CHARACTER + 0.1 + 3),
+    (modbus.WriteSingleCoil(0x01, 271, value=False), M7019, (8 + 8) * CHARACTER + 0.1),
+    (modbus.WriteMultipleCoils(0x01, 270, (False, True)), M7019, (10 + 8) * CHARACTER + 0.1 + 3),
+    (modbus.WriteMultipleCoils(0x01, 270, (True, False)), M7019, (10 + 8) * CHARACTER + 0.1),
+    (modbus.WriteMultipleCoils(0x01, 272, (True,)), M7019, (10 + 8) * CHARACTER + 0.1),
+    (modbus.WriteMultipleCoils(0x01, 270, (True,)), M7019, (10 + 8) * CHARACTER + 0.1),
+    (modbus.WriteSingleCoil(0x00, 2, value=True), M7019, 8 * CHARACTER + 0.1 + 0.002),
+    (modbus.WriteSingleCoil(0x00, 271, value=True), M7019, 8 * CHARACTER + 0.1 + 3),
+]
+
+
+@pytest.mark.parametrize(("command", "profile", "seconds"), DEADLINES)
+def test_the_deadline_allows_for_the_line_the_longest_answer_and_the_module(
+    command: AnyCommand, profile: Profile, seconds: float
+) -> None:
+    bus = ask(idle(), command, profile, now=100.0)
+
+    assert pytest.approx(100 + seconds, abs=1e-9) == next_deadline(bus)
+
+
+@pytest.mark.parametrize(
+    ("line", "character"),
+    [
+        (LineSettings(BaudRate.BAUD_1200), 10 / 1200),
+        (LineSettings(BaudRate.BAUD_9600, CharacterFormat.N82), 11 / 9600),
+        (LineSettings(BaudRate.BAUD_115200, CharacterFormat.E81), 11 / 115200),
+    ],
+)
+def test_a_character_takes_what_speed_and_format_of_the_line_say(line: LineSettings, character: float) -> None:
+    bus = ask(idle(line=line), READ)
+
+    assert pytest.approx(11 * character + 0.1) == next_deadline(bus)
+
+
+def test_a_line_whose_speed_is_not_defined_is_refused() -> None:
+    with pytest.raises(EncodeError, match=r"baud_rate cannot be '2A': 03\.\.0A"):
+        Bus[Any](line=LineSettings(0x2A))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("retries", -1),
+        ("retries", 1.0),
+        ("retries", True),
+        ("turnaround", -0.1),
+        ("grace", float("inf")),
+        ("grace", float("nan")),
+        ("turnaround", "1"),
+    ],
+)
+def test_a_policy_that_is_none_is_refused(name: str, value: object) -> None:
+    with pytest.raises(EncodeError, match=f"{name} cannot be") as caught:
+        Policy(**{name: value})  # type: ignore[arg-type] # the subject
+
+    assert (name, value) == (caught.value.field, caught.value.value)
+
+
+# --- answers ----------------------------------------------------------------------------------------------------------
+
+ANSWERS: list[tuple[str, AnyCommand, Profile, bytes, tuple[Event[Any], ...]]] = [
+    ("a response", READ, M7019, MASK_WIRE, (MASK,)),
+    ("a refusal", READ, M7019, b"?01\r", (Declined(READ, dcon.Refused(0x01)),)),
+    ("registers", WORDS, M7019, WORDS_WIRE, (Answered(WORDS, modbus.InputRegisters(0x01, (1, 2))),)),
+    ("a repeated write", COIL, M7019, COIL_WIRE, (COIL_ANSWER,)),
+    (
+        "an exception",
+        WORDS,
+        M7019,
+        modbus.seal(b"\x01\x84\x02"),
+        (Declined(WORDS, modbus.ExceptionResponse(0x01, 4, 2)),),
+    ),
+    ("noise before", READ, M7019, b"\xff\x00" + MASK_WIRE, (Noise(b"\xff\x00", Fault.LEADING), MASK)),
+    (
+        "noise before registers",
+        WORDS,
+        M7019,
+        b"\xff" + WORDS_WIRE,
+        (Noise(b"\xff", Fault.ADDRESS), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))),
+    ),
+    ("one too many", READ, M7019, MASK_WIRE + b"!0100\r", (MASK, Late(b"!0100\r"))),
+    ("a wrong checksum", READ, SEALED, b"!01FF00\r", (Noise(b"!01FF00\r", Fault.CHECKSUM),)),
+    ("a wrong CRC", COIL, M7019, COIL_WIRE[:-1] + b"\xff", (Noise(COIL_WIRE[:-1] + b"\xff", Fault.CRC),)),
+]
+
+
+@pytest.mark.parametrize(
+    ("command", "profile", "heard", "events"), [row[1:] for row in ANSWERS], ids=[row[0] for row in ANSWERS]
+)
+def test_what_comes_in_is_told_however_it_comes(
+    command: AnyCommand, profile: Profile, heard: bytes, events: tuple[Event[Any], ...]
+) -> None:
+    whole, found = hear(ask(idle(), command, profile), heard)
+    piecewise, found_piecewise = hear(ask(idle(), command, profile), *(bytes((byte,)) for byte in heard))
+
+    assert events == found
+    assert whole == piecewise
+    assert [event for event in events if not isinstance(event, Noise)] == [
+        event for event in found_piecewise if not isinstance(event, Noise)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("command", "heard", "fault"),
+    [
+        (READ, b"!02FF\r", Fault.ADDRESS),
+        (READ, b"?02\r", Fault.ADDRESS),
+        (READ, b"!01\r", Fault.LENGTH),
+        (READ, READ_WIRE, Fault.LEADING),
+        (INPUTS, b">+0025.1\r", Fault.LENGTH),
+        (INPUTS, MASK_WIRE, Fault.LEADING),
+        (WORDS, modbus.encode(modbus.InputRegisters(0x02, (1, 2))), Fault.ADDRESS),
+        (WORDS, modbus.encode(modbus.InputRegisters(0x01, (1,))), Fault.COUNT),
+        (COIL, modbus.encode(modbus.SingleCoilWritten(0x01, 3, value=True)), Fault.ECHO),
+    ],
+)
+def test_a_frame_that_is_not_the_answer_is_rejected_and_the_answer_waited_for(
+    command: AnyCommand, heard: bytes, fault: Fault
+) -> None:
+    sent = ask(idle(), command)
+
+    bus, (event,) = hear(sent, heard)
+
+    assert isinstance(event, Rejected)
+    assert (heard, fault) == (event.wire, event.fault)
+    assert event.reason.startswith(fault.value)
+    assert next_deadline(sent) == next_deadline(bus)
+
+
+def test_digits_that_change_places_are_not_seen_by_the_checksum_of_dcon() -> None:
+    sent = dcon.seal(b">" + b"+0025.1" * 8, checksum=True)
+    heard = sent.replace(b"25", b"52", 1)
+
+    _, events = hear(ask(idle(), INPUTS, SEALED), heard)
+
+    assert (Answered(INPUTS, dcon.AnalogInputs(("+0052.1", *("+0025.1",) * 7))),) == events
+
+
+def test_an_answer_counts_until_its_deadline_and_not_after() -> None:
+    sent = ask(idle(), READ)
+
+    in_time = receive(sent, MASK_WIRE, due(sent))
+    late = receive(sent, MASK_WIRE, due(sent) + 1e-6)
+
+    assert in_time[1] == (MASK,)
+    assert (TimedOut(READ), Late(MASK_WIRE)) == late[1]
+
+
+def test_nothing_happens_before_the_deadline() -> None:
+    sent = ask(idle(), READ)
+
+    assert (sent, ()) == wake(sent, due(sent) - 1e-6)
+
+
+def test_an_answer_that_is_cut_off_is_noise_at_the_deadline() -> None:
+    bus, nothing = hear(ask(idle(), READ), b"!01F")
+
+    assert nothing == ()
+    assert (Noise(b"!01F", Fault.TERMINATOR), TimedOut(READ)) == wake(bus, due(bus))[1]
+
+
+def test_an_answer_held_back_by_noise_is_found_at_the_deadline() -> None:
+    beginning = WORDS_WIRE[:2] + b"\x40"  # of a longer response
+    bus, nothing = hear(ask(idle(), WORDS), beginning + WORDS_WIRE)
+
+    assert nothing == ()
+    assert (Noise(beginning, Fault.CRC), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))) == wake(bus, due(bus))[1]
+
+
+def test_what_is_heard_before_anything_was_sent_is_no_answer() -> None:
+    bus, events = hear(idle(), b"\xff" + MASK_WIRE + INPUTS_WIRE[:9])
+    bus = ask(bus, INPUTS, now=0.1)
+
+    assert (Noise(b"\xff", Fault.LEADING), Late(MASK_WIRE)) == events
+    assert (Noise(INPUTS_WIRE[9:], Fault.LEADING),) == hear(bus, INPUTS_WIRE[9:], now=0.15)[1]
+
+
+# --- retries ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_request_without_answer_goes_out_as_often_as_the_policy_says() -> None:
+    bus = ask(Bus[Any](policy=evolve(ONCE, retries=2)), READ)
+    allowance = due(bus)
+    events: list[tuple[float, Event[Any]]] = []
+
+    while (now := next_deadline(bus)) is not None:
+        bus, found = wake(bus, now)
+        events += [(now, event) for event in found]
+
+    later = allowance + 0.05
+    assert [Transmit(READ_WIRE), Transmit(READ_WIRE), TimedOut(READ)] == [event for _, event in events]
+    assert pytest.approx([later, 2 * later, 3 * later - 0.05]) == [now for now, _ in events]
+
+
+def test_the_answer_to_a_repeated_request_is_its_outcome() -> None:
+    bus = ask(Bus[Any](policy=evolve(ONCE, retries=1)), READ)
+    bus, _ = wake(bus, due(bus))
+    bus, repeated = wake(bus, due(bus))
+
+    assert (Transmit(READ_WIRE),) == repeated
+    assert receive(bus, MASK_WIRE, due(bus))[1] == (MASK,)
+
+
+def test_a_late_answer_is_dropped_before_the_request_is_repeated() -> None:
+    bus = ask(Bus[Any](policy=evolve(ONCE, retries=1)), READ)
+    bus, nothing = wake(bus, due(bus))
+    bus, late = receive(bus, MASK_WIRE, due(bus) - 0.01)
+
+    assert ((), (Late(MASK_WIRE),)) == (nothing, late)
+    assert (Transmit(READ_WIRE),) == wake(bus, due(bus))[1]
+
+
+def test_a_host_that_was_away_repeats_at_once_what_it_should_have_repeated() -> None:
+    bus = ask(Bus[Any](policy=evolve(ONCE, retries=1)), READ)
+
+    bus, events = receive(bus, MASK_WIRE, 10.0)
+
+    assert (Late(MASK_WIRE), Transmit(READ_WIRE)) == events
+    assert due(bus) > 10
+
+
+# --- late responses ---------------------------------------------------------------------------------------------------
+
+
+def timed_out(command: AnyCommand = INPUTS) -> tuple[Bus[Any], float]:
+    bus = ask(idle(), command)
+    deadline = due(bus)
+    bus, events = wake(bus, deadline)
+
+    assert (TimedOut(command),) == events
+    return bus, deadline
+
+
+def test_after_a_deadline_the_line_is_left_silent_for_the_grace() -> None:
+    bus, deadline = timed_out()
+
+    bus, wire = send(bus, INPUTS, M7019, deadline)
+
+    assert wire == b""
+    assert pytest.approx(deadline + 0.05) == next_deadline(bus)
+    assert wake(bus, deadline + 0.049)[1] == ()
+    assert (Transmit(b"#01\r"),) == wake(bus, due(bus))[1]
+
+
+def test_a_late_response_is_not_the_answer_to_the_next_request() -> None:
+    bus, deadline = timed_out()
+    bus, _ = send(bus, dcon.ReadAnalogInputs(0x02), M7019, deadline)
+
+    bus, late = receive(bus, INPUTS_WIRE, deadline + 0.04)
+    bus, sent = wake(bus, due(bus))
+    _, answer = receive(bus, INPUTS_WIRE, due(bus))
+
+    assert (Late(INPUTS_WIRE),) == late
+    assert (Transmit(b"#02\r"),) == sent
+    assert [dcon.ReadAnalogInputs(0x02)] == [event.command for event in answer if isinstance(event, Answered)]
+
+
+def test_a_late_response_that_looks_like_the_request_is_late_all_the_same() -> None:
+    bus, deadline = timed_out(COIL)
+    bus, _ = send(bus, COIL, M7019, deadline)
+
+    assert (Late(COIL_WIRE),) == receive(bus, COIL_WIRE, deadline + 0.01)[1]
+
+
+def test_a_late_response_whose_end_comes_after_the_next_request_is_not_its_answer() -> None:
+    bus, deadline = timed_out()
+    bus, _ = send(bus, INPUTS, M7019, deadline)
+    bus, nothing = receive(bus, INPUTS_WIRE[:40], deadline + 0.049)
+    bus, _ = wake(bus, due(bus))
+
+    assert nothing == ()
+    assert (Noise(INPUTS_WIRE[40:], Fault.LEADING),) == hear(bus, INPUTS_WIRE[40:], now=due(bus) - 0.1)[1]
+
+
+def test_a_response_later_than_the_grace_can_be_mistaken() -> None:
+    bus, deadline = timed_out()
+    now = deadline + ONCE.grace
+
+    _, events = receive(ask(bus, dcon.ReadAnalogInputs(0x02), now=now), INPUTS_WIRE, now)
+
+    assert [dcon.ReadAnalogInputs(0x02)] == [event.command for event in events if isinstance(event, Answered)]
+
+
+# --- pauses -----------------------------------------------------------------------------------------------------------
+
+FACTORY = modbus.WriteSingleCoil(0x01, 271, value=True)
+PAUSES: list[tuple[AnyCommand, bytes, AnyCommand, float]] = [
+    (READ, MASK_WIRE, READ, 0.0),
+    (dcon.ReloadDefaultCalibration(0x01), b"!01\r", READ, 6 * CHARACTER + 3),
+    (dcon.ReloadDefaultCalibration(0x01), b"?01\r", READ, 6 * CHARACTER + 3),
+    (FACTORY, modbus.encode(FACTORY), WORDS, 8 * CHARACTER + 3),
+    (READ, MASK_WIRE, WORDS, 0.05 + SILENCE),
+    (WORDS, WORDS_WIRE, WORDS, 0.05 + SILENCE),
+    (WORDS, WORDS_WIRE, READ, 0.05 + SILENCE),
+]
+
+
+@pytest.mark.parametrize(("first", "answer", "second", "until"), PAUSES)
+def test_a_pause_that_is_owed_is_kept(first: AnyCommand, answer: bytes, second: Any, until: float) -> None:
+    bus, events = hear(ask(idle(), first), answer)
+    early, wire = send(bus, second, M7019, 0.05)
+
+    assert len(events) == 1
+    assert (wire == b"") == (until > 0.05)
+    if until > 0.05:
+        assert pytest.approx(until) == due(early)
+        assert send(bus, second, M7019, until - 1e-6)[1] == b""
+        assert send(bus, second, M7019, until + 1e-6)[1] != b""
+
+
+@pytest.mark.parametrize("command", [dcon.SynchronizedSampling(), dcon.HostOk(), evolve(COIL, address=0)])
+def test_a_broadcast_is_over_when_its_pause_is(command: AnyCommand) -> None:
+    bus = ask(idle(), command)
+    bus, strange = receive(bus, modbus.seal(b"\x01\x85\x02") if command.section == "3.4" else MASK_WIRE, 0.001)
+
+    assert [Late] == [type(event) for event in strange]
+    assert (Sent(command),) == wake(bus, due(bus))[1]
+
+
+def test_between_modbus_frames_there_is_silence_also_on_fast_lines() -> None:
+    line = LineSettings(BaudRate.BAUD_115200)
+    bus, _ = hear(ask(idle(line=line), WORDS), WORDS_WIRE)
+
+    bus, wire = send(bus, WORDS, M7019, 0.05)
+
+    assert wire == b""
+    assert pytest.approx(0.05 + 0.00175) == next_deadline(bus)
+
+
+def test_a_modbus_request_waits_for_silence_but_not_for_ever() -> None:
+    bus, deadline = timed_out(WORDS)
+    bus, _ = send(bus, WORDS, M7019, deadline)
+    now, sent = deadline, False
+
+    while not sent:
+        now += SILENCE / 2
+        bus, events = receive(bus, b"\xff", now)
+        sent = any(isinstance(event, Transmit) for event in events)
+        assert sent or due(bus) > now
+
+    assert deadline + ONCE.grace + SILENCE < now < deadline + ONCE.grace + 0.2
+
+
+def test_a_modbus_request_is_repeated_after_silence() -> None:
+    bus = ask(Bus[Any](policy=Policy(retries=1, grace=0)), WORDS)
+    bus, _ = receive(bus, b"\xff", due(bus) - 0.001)
+    deadline = due(bus)
+
+    bus, _ = wake(bus, deadline)
+
+    assert pytest.approx(deadline - 0.001 + SILENCE) == next_deadline(bus)
+
+
+# --- local echo -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("command", "echo", "answer", "outcome"),
+    [
+        (READ, READ_WIRE, MASK_WIRE, MASK),
+        (COIL, COIL_WIRE, COIL_WIRE, COIL_ANSWER),
+        (WORDS, modbus.encode(WORDS), WORDS_WIRE, Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))),
+    ],
+)
+def test_the_echo_is_dropped(command: AnyCommand, echo: bytes, answer: bytes, outcome: Event[Any]) -> None:
+    bus, nothing = hear(ask(idle(echo=True), command), echo)
+
+    assert nothing == ()
+    assert (outcome,) == hear(bus, answer)[1]
+    assert (outcome,) == hear(ask(idle(echo=True), command), *(bytes((byte,)) for byte in echo + answer))[1]
+
+
+@pytest.mark.parametrize(
+    ("command", "heard", "event"), [(READ, MASK_WIRE, Late(MASK_WIRE)), (COIL, WORDS_WIRE, Late(WORDS_WIRE))]
+)
+def test_what_comes_before_the_echo_is_late(command: AnyCommand, heard: bytes, event: Event[Any]) -> None:
+    bus, events = hear(ask(idle(echo=True), command), heard)
+
+    assert (event,) == events
+    assert (TimedOut(command),) == wake(bus, due(bus))[1]
+
+
+def test_a_lost_echo_is_not_made_up_for_by_an_answer_that_looks_like_it() -> None:
+    bus, events = hear(ask(idle(echo=True), COIL), COIL_WIRE)
+
+    assert events == ()
+    assert (TimedOut(COIL),) == wake(bus, due(bus))[1]
+
+
+def test_an_echo_that_is_not_expected_is_rejected_or_answers_a_modbus_write() -> None:
+    _, dcon_events = hear(ask(idle(), READ), READ_WIRE + MASK_WIRE)
+    _, modbus_events = hear(ask(idle(), COIL), COIL_WIRE)
+
+    assert [Rejected, Answered] == [type(event) for event in dcon_events]
+    assert modbus_events == (COIL_ANSWER,)
+
+
+def test_each_try_has_its_echo() -> None:
+    bus = ask(Bus[Any](policy=evolve(ONCE, retries=1), echo=True), COIL)
+    bus, _ = hear(bus, COIL_WIRE)
+    bus, _ = wake(bus, due(bus))
+    bus, repeated = wake(bus, due(bus))
+
+    bus, nothing = hear(bus, COIL_WIRE, now=due(bus))
+
+    assert ((Transmit(COIL_WIRE),), (TimedOut(COIL),)) == (repeated, nothing)
+
+
+def test_a_broadcast_has_an_echo_too() -> None:
+    bus, nothing = hear(ask(idle(echo=True), dcon.HostOk()), b"~**\r", now=0.001)
+
+    assert nothing == ()
+    assert (Sent(dcon.HostOk()),) == wake(bus, due(bus))[1]
+
+
+# --- one line, two protocols ------------------------------------------------------------------------------------------
+
+
+def test_modules_of_both_protocols_can_be_on_one_line() -> None:
+    bus, first = hear(ask(idle(), READ), MASK_WIRE)
+    bus, second = hear(ask(bus, COIL, now=1.0), COIL_WIRE, now=1.05)
+    bus, third = hear(ask(bus, READ, SEALED, now=2.0), dcon.seal(b"!01FF", checksum=True), now=2.05)
+
+    assert (first, second, third) == ((MASK,), (COIL_ANSWER,), (MASK,))
+
+
+def test_settings_of_the_line_may_be_changed_between_requests() -> None:
+    command = dcon.SetProtocol(0x01, Protocol.DCON)
+    bus, _ = hear(ask(idle(), command, Profile(Model.M_7017)), b"!01\r")
+
+    bus = ask(evolve(bus, line=LineSettings(BaudRate.BAUD_19200), policy=Policy()), READ, now=1.0)
+
+    assert pytest.approx(1 + 11 * 10 / 19200 + 0.2) == next_deadline(bus)
