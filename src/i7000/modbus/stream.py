@@ -168,7 +168,7 @@ def drop_echo(received: bytes, sent: bytes) -> bytes | None:
     return received[len(sent) :] if len(received) >= len(sent) else None
 
 
-def _scan(  # noqa: C901 - one loop
+def _scan(  # noqa: C901, PLR0912 - one loop
     buffer: bytes, side: Side, profile: Profile | None, request: Request[Any] | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
     rules = None  # They are asked for where the first three bytes do not tell enough.
