@@ -458,7 +458,7 @@ def test_a_request_that_the_model_does_not_have_is_told_all_the_same() -> None:
         (["0146 20", "0146 20 0B 03 00"], {"major": "11", "minor": "3", "build": "0"}),
         (["0146 25", "0146 25 0A"], {"mask": "0A, channels 1, 3"}),
         (["0146 29", "0146 29 A0"], {"settings": "A0, 50 Hz rejected, fast mode"}),
-        (["0146 29", "0146 29 41"], {"settings": "41, 60 Hz rejected, normal mode, reserved bits 41"}),
+        (["0146 2A 41"], {"settings": "41, 60 Hz rejected, normal mode, reserved bits 41"}),
         (["0146 2B 00"], {"channel": "00, the module"}),
         (["0146 2B 82"], {"channel": "82, channel 2"}),
         (["0146 2B 02"], {"channel": "02, not defined"}),
@@ -630,7 +630,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
         ("ReadModuleName address=1 --single-ended --type K", 2, "single_ended cannot be True"),
         ("ReadModuleName address=1 --checksum", 2, "--format and --checksum are of DCON"),
         ("ReadCjcUpdate address=1 --model M-7018", 1, "M-7018 has no CJC update setting by Modbus"),
-        ("ReadCoils address=1 start=65535 count=2", 1, "start cannot be 65535"),
+        ("ReadCoils address=1 start=65535 count=2", 1, "count cannot be 2"),
     ],
 )
 def test_what_is_not_written_is_said(run: Run, arguments: str, code: int, message: str) -> None:

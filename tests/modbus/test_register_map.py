@@ -28,8 +28,10 @@ from i7000 import (
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 
 MODBUS_MODELS = [model for model in Model if Protocol.MODBUS_RTU in model.protocols]
+CLEARED_BY = {"host_watchdog_timeout_count": 0, "host_watchdog_timed_out": 1}
 PROFILES = [*map(Profile, MODBUS_MODELS), Profile(Model.M_7017Z, single_ended=True)]
 M_7017 = RegisterMap(Profile(Model.M_7017))
+UNKNOWN_TYPES = RegisterMap(Profile(Model.M_7017, type_codes=()))
 M_7017Z = RegisterMap(Profile(Model.M_7017Z))
 M_7018 = RegisterMap(Profile(Model.M_7018))
 M_7019R = RegisterMap(Profile(Model.M_7019R))
@@ -163,9 +165,24 @@ def test_a_row_is_read_as_far_as_the_module_has_channels(registers: RegisterMap)
             continue
         single = row.count == 1 or row.kind in (Kind.UINT32, Kind.RECORD)
         count = row.count if single else min(row.count, registers.profile.channels)
+        area = registers.find(row.name).area
 
-        assert READERS[row.area](0x01, row.address, count) == registers.read(0x01, row.number)
-        assert modbus.encode(registers.read(0x01, row.number), registers.profile)
+        assert READERS[area](0x01, row.address, count) == registers.read(0x01, row.name)
+        assert modbus.encode(registers.read(0x01, row.name), registers.profile)
+
+
+@every_map
+def test_a_number_or_address_means_the_value_that_it_is_in(registers: RegisterMap) -> None:
+    for row in registers:
+        width = {Kind.UINT32: 2, Kind.RECORD: 18}.get(row.kind, 1)
+        most = row.count if row.kind is not Kind.READING else registers.profile.channels
+        for at in range(most if row.access is not Access.WRITE else 0):
+            number = f"{row.area.value}{row.address + at + 1:04d}"
+            request = READERS[row.area](0x01, row.address + at - at % width, width)
+
+            assert request == registers.read(0x01, number)
+            if row.area is Area.HOLDING_REGISTER:
+                assert request == registers.read(0x01, int(number)) == registers.read(0x01, row.address + at)
 
 
 @pytest.mark.parametrize("big_endian", [False, True])
@@ -179,8 +196,12 @@ def test_what_is_written_is_what_is_read(registers: RegisterMap, big_endian: boo
         channels = 1 if row.kind is Kind.UINT32 else min(row.count, registers.profile.channels)
         for count in counts_within(row, registers.profile):
             items = items_of(row, [count] * channels, big_endian=big_endian)
-            value = registers.decode(row.number, items, big_endian=big_endian)
-            request: Any = registers.write(0x01, row.number, value, big_endian=big_endian)
+            value = registers.decode(row.name, items, big_endian=big_endian)
+            if count != CLEARED_BY.get(row.name, count):
+                with pytest.raises(EncodeError, match=f"{row.name} cannot be .*: {CLEARED_BY[row.name]}, manual 3.4"):
+                    registers.write(0x01, row.name, value)
+                continue
+            request: Any = registers.write(0x01, row.name, value, big_endian=big_endian)
 
             assert (row.address, items) == written(request)
             assert modbus.encode(request, registers.profile)
@@ -195,7 +216,8 @@ def test_what_is_beyond_the_limits_of_a_row_is_not_written(registers: RegisterMa
         low, high = row.minimum or 0, 0xFFFF if row.maximum is None else row.maximum
         channels = range(1) if row.count > 1 else None
         for count in (low - 1, high + 1, low + 0.5):
-            with pytest.raises(EncodeError, match=f"{row.name} cannot be .* in steps of .*, manual 3.4"):
+            said = " in steps of .*" if low < high and row.name not in CLEARED_BY else ": [01]"
+            with pytest.raises(EncodeError, match=f"{row.name} cannot be .*{said}, manual 3.4"):
                 registers.write(0x01, row.number, count * scale, channels=channels)
 
 
@@ -208,6 +230,13 @@ def test_what_is_beyond_the_limits_of_a_row_is_not_written(registers: RegisterMa
         (M_7017, "response_delay", [30], modbus.WriteSingleRegister(1, 487, 30)),
         (M_7017, "filter", Filter.REJECT_50_HZ, modbus.WriteSingleCoil(1, 258, True)),
         (M_7017, "filter", False, modbus.WriteSingleCoil(1, 258, False)),
+        (M_7017, "response_delay", 2.0, modbus.WriteSingleRegister(1, 487, 2)),
+        (M_7017, "host_watchdog_timeout_count", 0, modbus.WriteSingleRegister(1, 491, 0)),
+        (M_7017, "host_watchdog_timed_out", True, modbus.WriteSingleCoil(1, 269, True)),
+        (M_7019R, 40258, TypeCode.K, modbus.WriteSingleRegister(1, 257, 0x0F)),
+        (M_7019R, 40257, [TypeCode.K], modbus.WriteSingleRegister(1, 256, 0x0F)),
+        (M_7019R, 263, 0x0F, modbus.WriteSingleRegister(1, 263, 0x0F)),
+        (LOGGER, 40018, 0x12345678, modbus.WriteMultipleRegisters(1, 16, (0x5678, 0x1234))),
         (M_7017, "protocol", Protocol.DCON, modbus.WriteSingleCoil(1, 256, False)),
         (M_7017, "modbus_data_format", ModbusDataFormat.ENGINEERING, modbus.WriteSingleCoil(1, 268, True)),
         (M_7017, "module_type_code", TypeCode.V_10, modbus.WriteSingleRegister(1, 486, 0x08)),
@@ -258,13 +287,33 @@ def test_a_value_is_written_in_the_unit_of_its_row(
         (M_7019R, "cjc_update", [1], CjcUpdate.STARTED),
         (M_7019R, "type_code", [0x0F] * 8, (TypeCode.K,) * 8),
         (LOGGER, "rtc_epoch", [0x5678, 0x1234], 0x12345678),
+        (M_7017, 30003, [0x7FFF], Reading(10.0, Unit.VOLT)),
+        (M_7017, "40001", [0x8000], Reading(-10.0, Unit.VOLT)),
+        (M_7017, 7, [0x8000], Reading(-10.0, Unit.VOLT)),
+        (M_7017, 10131, [1], True),
+        (M_7019R, 40258, [0x0F], TypeCode.K),
+        (M_7017, 40482, [0x0305, 0x0001], 0x00010305),
     ],
     ids=str,
 )  # fmt: skip
-def test_items_are_told_in_the_unit_of_their_row(registers: RegisterMap, key: str, items: Any, value: Any) -> None:
+def test_items_are_told_in_the_unit_of_their_row(
+    registers: RegisterMap, key: str | int, items: Any, value: Any
+) -> None:
     told = registers.decode(key, items)
 
     assert (value, type(value)) == (told, type(told))
+
+
+@pytest.mark.parametrize(("key", "told"), [("firmware_version", 0x12345678), ("module_name", b"\x12\x34\x56\x78")])
+def test_the_words_of_version_and_name_have_one_order(key: str, told: Any) -> None:
+    for big_endian in (False, True):
+        assert told == LOGGER.decode(key, [0x5678, 0x1234], big_endian=big_endian)
+
+
+@pytest.mark.parametrize("key", ["rtc_epoch", "log_last_index", "log_read_index"])
+def test_the_words_of_clock_and_log_have_the_order_that_the_coil_says(key: str) -> None:
+    assert LOGGER.decode(key, [0x5678, 0x1234]) == 0x12345678
+    assert LOGGER.decode(key, [0x1234, 0x5678], big_endian=True) == 0x12345678
 
 
 def test_the_coil_big_endian_says_which_word_of_32_bits_is_first() -> None:
@@ -288,7 +337,15 @@ def test_the_coil_big_endian_says_which_word_of_32_bits_is_first() -> None:
         (M_7017, "response_delay", -1, r"response_delay cannot be -1: 0\.\.30 ms in steps of 1"),
         (M_7017, "module_address", 0, r"module_address cannot be 0: 1\.\.247 in steps of 1"),
         (M_7017, "channel_mask", 0x100, r"channel_mask cannot be 256: 0\.\.255"),
-        (M_7017, "host_watchdog_timeout_count", 0x10000, r"0\.\.65535"),
+        (M_7017, "host_watchdog_timeout_count", 1, "host_watchdog_timeout_count cannot be 1: 0, manual"),
+        (M_7017, "host_watchdog_timed_out", False, "host_watchdog_timed_out cannot be False: 1, manual"),
+        (M_7017, "response_delay", True, "a number, or what stands for it"),
+        (M_7017, "host_watchdog_timeout_count", False, "a number, or what stands for it"),
+        (M_7017, "modbus_data_format", Protocol.MODBUS_RTU, "a number, or what stands for it"),
+        (M_7017, "filter", CjcUpdate.STARTED, "a number, or what stands for it"),
+        (M_7017, "line_settings", TypeCode.V_10, "a number, or what stands for it"),
+        (M_7017, "module_type_code", BaudRate.BAUD_38400, "a number, or what stands for it"),
+        (M_7019R, 40258, (TypeCode.K, TypeCode.J), r"1 value\(s\)"),
         (M_7017, "response_delay", None, "a number, or what stands for it"),
         (M_7017, "response_delay", "1", "a number, or what stands for it"),
         (M_7017, "response_delay", float("nan"), "a number, or what stands for it"),
@@ -307,7 +364,7 @@ def test_the_coil_big_endian_says_which_word_of_32_bits_is_first() -> None:
         (M_7017, "line_settings", LineSettings(0x3F), r"baud_rate cannot be '3F': 03\.\.0A"),
         (M_7017, "line_settings", 0x0B, r"baud_rate cannot be '0B': 03\.\.0A, manual 3\.4"),
         (M_7017, "line_settings", 0xCB, r"line_settings cannot be 203: 3\.\.202"),
-        (M_7019R, "load_factory_calibration", False, r"load_factory_calibration cannot be False: 1\.\.1"),
+        (M_7019R, "load_factory_calibration", False, r"load_factory_calibration cannot be False: 1, manual"),
         (M_7017, "filter", 2, r"filter cannot be 2: 0\.\.1"),
         (M_7017, "filter", 0.5, r"filter cannot be 0\.5: 0\.\.1 in steps of 1"),
         (LOGGER, "rtc_epoch", 1 << 32, r"rtc_epoch cannot be 4294967296: 0\.\.4.29497e\+09 s"),
@@ -338,17 +395,50 @@ def test_a_line_that_the_firmware_does_not_have_is_not_written() -> None:
         (M_7017, "analog_input", [0] * 7, Fault.COUNT),
         (M_7019R, "cjc_update", [3], Fault.VALUE),
         (M_7017, "analog_input", [0x10000] * 8, Fault.NUMBER),
-        (RegisterMap(Profile(Model.M_7017, type_codes=())), "analog_input", [0] * 8, Fault.NUMBER),
+        (UNKNOWN_TYPES, "analog_input", [0] * 8, Fault.NUMBER),
+        (M_7017, 30003, [0] * 8, Fault.COUNT),
+        (M_7017, "line_settings", [-1], Fault.NUMBER),
+        (M_7017, "module_name", [70000, 70000], Fault.NUMBER),
+        (M_7017, "module_name", [0, -1], Fault.NUMBER),
+        (M_7017, "response_delay", [1.5], Fault.NUMBER),
+        (M_7017, "response_delay", [None], Fault.NUMBER),
+        (M_7017, "response_delay", [-5], Fault.NUMBER),
+        (M_7017, "response_delay", [True], Fault.NUMBER),
+        (M_7017, "host_watchdog_enabled", [7], Fault.NUMBER),
+        (M_7017, "range_status", [False] * 7 + [2], Fault.NUMBER),
+        (LOGGER, "type_code", [99999] * 16, Fault.NUMBER),
+        (LOGGER, "rtc_epoch", ["a", "b"], Fault.NUMBER),
+        (LOGGER, "log_records", [0] * 107 + [0x10000], Fault.NUMBER),
+        (M_7018, "cjc_offset", [0] * 7 + [0x0100], Fault.RESERVED),
+        (M_7018, "cjc_offset", [0xFF80] * 8, Fault.RESERVED),
     ],
     ids=str,
 )
 def test_items_that_are_no_value_of_a_row_are_told_so(
-    registers: RegisterMap, key: str, items: Any, fault: Fault
+    registers: RegisterMap, key: str | int, items: Any, fault: Fault
 ) -> None:
     with pytest.raises(DecodeError) as caught:
         registers.decode(key, items)
 
-    assert fault is caught.value.fault
+    name = "type_codes" if registers is UNKNOWN_TYPES else registers.find(key).name
+    assert (fault, b"", name) == (caught.value.fault, caught.value.wire, caught.value.field)
+
+
+@pytest.mark.parametrize(
+    ("registers", "key", "items", "said"),
+    [
+        (M_7017, "response_delay", [1, 2], "count in response_delay .*; allowed: 1 items, not 2"),
+        (M_7017, "host_watchdog_enabled", [7], r"allowed: 0\.\.1, item 0 is none"),
+        (M_7017, "analog_input", [0] * 7 + [-1], r"allowed: 0\.\.65535, item 7 is none"),
+        (M_7019R, "cjc_update", [3], r"allowed: 0\.\.2, not 3"),
+        (M_7018, "cjc_offset", [0xFF80] * 8, "allowed: 00 in the high byte, not FF"),
+        (UNKNOWN_TYPES, 30001, [0], "number in type_codes .*; allowed: none: the profile knows no types"),
+    ],
+    ids=str,
+)
+def test_an_error_says_what_could_be_there(registers: RegisterMap, key: str | int, items: Any, said: str) -> None:
+    with pytest.raises(DecodeError, match=said + r" \(manual 3\.[45]\)"):
+        registers.decode(key, items)
 
 
 # --- channels ---------------------------------------------------------------------------------------------------------
@@ -363,6 +453,21 @@ def test_some_channels_of_a_row_are_read_written_and_told() -> None:
     )
     assert modbus.WriteSingleRegister(1, 258, 0x0F) == mixed.write(0x01, "type_code", [15], channels=range(2, 3))
     assert mixed.decode("type_code", [0x0E], channels=range(7, 8)) == (TypeCode.J,)
+    assert mixed.read(0x01, 40007, channels=range(5, 7)) == modbus.ReadHoldingRegisters(1, 5, 2)
+    assert mixed.decode(30007, [0x7FFF]) == Reading(None, Unit.CELSIUS, Status.OVER_RANGE)
+
+
+def test_readings_of_channels_that_the_connecting_mode_does_not_have_are_not_read() -> None:
+    single_ended = RegisterMap(evolve(M_7017Z.profile, single_ended=True, type_codes=(TypeCode.V_10,) * 20))
+    several = range(10, 12)
+
+    assert modbus.ReadInputRegisters(1, 10, 2) == single_ended.read(0x01, "analog_input", channels=several)
+    assert modbus.ReadHoldingRegisters(1, 266, 2) == M_7017Z.read(0x01, "type_code", channels=several)
+    for key, channels in (("analog_input", several), ("analog_input", range(9, 11)), (30011, None), (40020, None)):
+        with pytest.raises(EncodeError, match=r"channels cannot be range\(.*\): a range within 0\.\.9, in this"):
+            M_7017Z.read(0x01, key, channels=channels)
+    with pytest.raises(DecodeError, match=r"allowed: channels 0\.\.9 of the profile"):
+        M_7017Z.decode("analog_input", [0, 0], channels=several)
 
 
 @pytest.mark.parametrize(
@@ -406,6 +511,14 @@ def test_words_are_readings_in_the_format_of_the_profile(
     assert told == RegisterMap(profile).decode("analog_input", words, channels=range(2))
 
 
+@pytest.mark.parametrize("word", [1.5, "a", None, True, -1, 0x10000])
+def test_what_is_no_word_is_no_reading(word: Any) -> None:
+    with pytest.raises(DecodeError, match=r"number in words .*; allowed: 0\.\.65535, item 1 is none") as caught:
+        modbus.readings([0, word], M_7017.profile)
+
+    assert (caught.value.fault, caught.value.wire) == (Fault.NUMBER, b"")
+
+
 @pytest.mark.parametrize(("words", "channel"), [((0,), 8), ((0, 0), 7), ((0,), -1), ((0,) * 9, 0)])
 def test_words_of_channels_that_are_not_there_are_no_readings(words: tuple[int, ...], channel: int) -> None:
     with pytest.raises(DecodeError, match=r"number in type_codes .*; allowed: channels 0\.\.7 of the profile"):
@@ -426,21 +539,36 @@ def test_a_log_has_six_records_of_16_readings_and_a_time() -> None:
     assert records == LOGGER.decode("log_records", swapped, big_endian=True)
 
 
+def test_a_log_is_read_a_record_at_a_time() -> None:
+    words = (*range(16), 0x5678, 0x1234)
+    record = modbus.LogRecord(modbus.readings(words[:16], LOGGER.profile), 0x12345678)
+    some = range(2, 4)
+
+    assert modbus.ReadInputRegisters(1, 1000, 18) == LOGGER.read(0x01, "log_records", channels=range(1))
+    assert modbus.ReadInputRegisters(1, 1036, 36) == LOGGER.read(0x01, "log_records", channels=some)
+    assert modbus.ReadInputRegisters(1, 1018, 18) == LOGGER.read(0x01, 31019)
+    assert LOGGER.decode("log_records", words, channels=range(1)) == (record,)
+    assert LOGGER.decode("log_records", words * 2, channels=some) == (record, record)
+    assert LOGGER.decode(31019, words) == record
+    with pytest.raises(EncodeError, match=r"channels cannot be range\(5, 7\): a range within 0\.\.5"):
+        LOGGER.read(0x01, "log_records", channels=range(5, 7))
+
+
 # --- plans ------------------------------------------------------------------------------------------------------------
 
 
 @every_map
 def test_a_plan_reads_every_row_with_its_neighbours(registers: RegisterMap) -> None:
-    readable = [row for row in registers if row.access is not Access.WRITE]
+    readable = [row for row in registers if row.access is not Access.WRITE and row == registers.find(row.name)]
     spans: list[list[Any]] = []
     for row in readable:
-        request = registers.read(0x01, row.number)
+        request = registers.read(0x01, row.name)
         if spans and spans[-1][0] is row.area and spans[-1][1] + spans[-1][2] == row.address:
             spans[-1][2] += request.count
         else:
             spans.append([row.area, row.address, request.count])
 
-    plan = registers.plan(0x01, [row.number for row in reversed(readable)])
+    plan = registers.plan(0x01, [row.name for row in reversed(readable)])
 
     assert [READERS[area](0x01, start, count) for area, start, count in spans] == list(plan.requests)
 
@@ -450,7 +578,9 @@ def test_the_values_of_a_plan_are_those_of_single_reads(registers: RegisterMap) 
     names = sorted({row.name for row in registers if row.access is not Access.WRITE})
     plan = registers.plan(0x01, names)
     memory = {
-        (READERS[row.area], row.address + at): counts_within(row, registers.profile)[at % 2]
+        (READERS[row.area], row.address + at): items_of(row, counts_within(row, registers.profile), big_endian=False)[
+            at % 2
+        ]
         for row in registers
         for at in range(row.count)
     }
@@ -497,8 +627,59 @@ def test_a_plan_needs_a_response_for_each_request() -> None:
 def test_a_response_with_too_few_items_is_told_so() -> None:
     plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
 
-    with pytest.raises(DecodeError, match=r"count in host_watchdog_timeout .*; allowed: 1 items"):
+    with pytest.raises(DecodeError, match=r"count in responses .*; allowed: 2 items, not 1"):
         plan.decode([modbus.HoldingRegisters(0x01, (0,))])
+
+
+@pytest.mark.parametrize(
+    ("response", "fault", "allowed"),
+    [
+        (modbus.HoldingRegisters(0x01, (0, 25, 0)), Fault.COUNT, "2 items, not 3"),
+        (modbus.HoldingRegisters(0x02, (0, 25)), Fault.ADDRESS, "01, not 02"),
+        (modbus.ExceptionResponse(0x02, 3, 2), Fault.ADDRESS, "01, not 02"),
+        (modbus.InputRegisters(0x01, (0, 25)), Fault.FUNCTION, "HoldingRegisters, or an exception of function 03"),
+        (modbus.ExceptionResponse(0x01, 4, 2), Fault.FUNCTION, "HoldingRegisters, or an exception of function 03"),
+        (None, Fault.FUNCTION, "HoldingRegisters, or an exception of function 03"),
+    ],
+    ids=str,
+)
+def test_a_response_that_does_not_answer_its_request_is_told_so(response: Any, fault: Fault, allowed: str) -> None:
+    plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
+
+    with pytest.raises(DecodeError) as caught:
+        plan.decode([response])
+
+    error = caught.value
+    assert (fault, b"", "responses", allowed, "3.4") == (
+        error.fault, error.wire, error.field, error.allowed, error.section,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("keys", [[30001, 40001], [30001, 30002], ["analog_input", 30001], ["40003", "analog_input"]])
+def test_two_things_of_one_name_are_not_planned(keys: list[str | int]) -> None:
+    with pytest.raises(EncodeError, match="analog_input is asked for twice, and values go by name: one row or channel"):
+        M_7017.plan(0x01, keys)
+
+
+def test_a_thing_is_planned_once_by_whatever_keys() -> None:
+    assert M_7017.plan(0x01, ["filter"]) == M_7017.plan(0x01, ["filter", "00259"])
+
+
+def test_a_plan_reads_single_channels_by_their_numbers() -> None:
+    plan = M_7019R.plan(0x01, [40258, 30008, "cjc_temperature"])
+
+    assert plan.requests == (
+        modbus.ReadInputRegisters(1, 7, 1),
+        modbus.ReadInputRegisters(1, 128, 1),
+        modbus.ReadHoldingRegisters(1, 257, 1),
+    )
+    assert plan.decode(
+        [modbus.InputRegisters(1, (0,)), modbus.InputRegisters(1, (2500,)), modbus.HoldingRegisters(1, (0x0F,))]
+    ) == {
+        "analog_input": Reading(0.0, M_7019R.profile.units[7]),
+        "cjc_temperature": 25.0,
+        "type_code": TypeCode.K,
+    }
 
 
 def test_what_can_only_be_written_cannot_be_planned() -> None:

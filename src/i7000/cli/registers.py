@@ -109,7 +109,7 @@ def _told(known: RegisterMap | None, row: Register, at: int, sent: tuple[int, ..
         return
     channels = None if channel is None else range(channel, channel + 1)
     try:
-        value = known.decode(row.number, sent, channels=channels)
+        value = known.decode(row.name, sent, channels=channels)
     except DecodeError:
         yield evolve(raw, text=raw.text if row.kind is Kind.READING else f"{raw.text}, not defined")
         return

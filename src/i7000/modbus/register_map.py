@@ -1,7 +1,8 @@
 """Registers by name, with units: requests that read and write them, values of what comes back (manual 3.4).
 
 Laws: a value that `RegisterMap.decode` gives is one that `RegisterMap.write` takes, if it is in the range of its
-register. Nothing is clamped: a value between two counts, or beyond the range, is told as it is read and not written.
+register; what a module counts or notes itself can only be cleared. Nothing is clamped: a value between two counts, or
+beyond the range, is told as it is read and not written.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -9,8 +10,8 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from i7000.errors import EncodeError
-from i7000.modbus.register_values import counts_of, value_of
+from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
 from i7000.modbus.request import ExceptionResponse, Request
 from i7000.modbus.standard import (
@@ -48,6 +49,9 @@ _FIRST_NUMBER = 10001
 class RegisterMap:
     """The address map of one module: what it has, by name and by number.
 
+    Shape: of a row with a value a channel, its name means all of them; a number or address, of the first too, means
+        the one that it is in: 30003 is channel 2, one value and no tuple. `channels` goes before both, and counts from
+        the first of the row. The log of the M-7017mC-16 has records in place of channels, of 18 registers each.
     Errors: `EncodeError` for what the module does not have, what cannot be read or written, what a row cannot hold.
     Manual: 3.4.1 to 3.4.9.
 
@@ -92,13 +96,17 @@ class RegisterMap:
     def read(self, address: int, key: str | int, *, channels: range | None = None) -> ReadItems:
         """Make the request that reads a row, or some channels of it.
 
-        Special: of a row for more channels than the connecting mode has, those that it has.
+        Special: of a row for more channels than the connecting mode has, those that it has; no readings of others.
         """
         row = self.find(key)
         if row.access is Access.WRITE:
             raise EncodeError("register", row.name, "it can only be written", "3.4")
-        first, count = self._span(row, channels)
-        request: ReadItems = _READERS[row.area](address, row.address + first, count)
+        first, count, _ = self._span(row, key, channels)
+        if row.kind is Kind.READING and first + count > self.profile.channels:
+            allowed = f"a range within 0..{self.profile.channels - 1}, in this connecting mode"
+            raise EncodeError("channels", range(first, first + count), allowed, "3.4")
+        width = row.kind.width
+        request: ReadItems = _READERS[row.area](address, row.address + first * width, count * width)
         return request
 
     def write(
@@ -112,22 +120,23 @@ class RegisterMap:
     ) -> Request[Any]:
         """Make the request that writes a row, or some channels of it.
 
-        Shape: `value` is what `decode` gives: one value for a row of one item, a tuple or list for several.
-        Special: `big_endian` as in `decode`.
+        Shape: `value` is what `decode` gives: one value for one item, a tuple or list for several. A bool is for coils,
+            a member of an enumeration for the rows that `decode` gives it for.
+        Special: `big_endian` as in `decode`. ``host_watchdog_timeout_count`` can only be cleared, by 0, and
+            ``host_watchdog_timed_out`` by 1.
         """
         row = self.find(key)
         if row.access is Access.READ:
             raise EncodeError("register", row.name, "it can only be read", "3.4")
-        first, count = self._span(row, channels)
+        first, count, _ = self._span(row, key, channels)
         values = tuple(value) if isinstance(value, tuple | list) else (value,)
-        items = count // 2 if row.kind is Kind.UINT32 else count
-        if len(values) != items:
-            raise EncodeError(row.name, value, f"{items} value(s)", "3.4")
+        if len(values) != count:
+            raise EncodeError(row.name, value, f"{count} value(s)", "3.4")
         counts = [it for one in values for it in counts_of(row, one, self.profile, big_endian=big_endian)]
         start = row.address + first
         if row.area is Area.COIL:
             return WriteSingleCoil(address, start, bool(counts[0]))
-        if count == 1:
+        if len(counts) == 1:
             return WriteSingleRegister(address, start, counts[0])
         return WriteMultipleRegisters(address, start, tuple(counts))
 
@@ -136,41 +145,55 @@ class RegisterMap:
     ) -> Any:  # noqa: ANN401 - what the row holds
         """Tell what was read of a row, or of some channels of it: the `values` of the response.
 
-        Shape: a row of one item gives one value, any other a tuple, channel by channel. Readings are `Reading`, coded
-            settings members of their enumeration, the log of the M-7017mC-16 `LogRecord`.
+        Shape: a row of one item, or one item of a row by its number, gives one value; all else a tuple, channel by
+            channel. Readings are `Reading`, coded settings members of their enumeration, the log of the M-7017mC-16
+            `LogRecord`.
         Unit: that of the row.
-        Special: `big_endian` is what coil 00283 of the M-7017mC-16 says: 32-bit values have their high word first.
-        Errors: `DecodeError` for another number of items, and for what is no value of the row.
+        Special: `big_endian` is what coil 00283 of the M-7017mC-16 says: the 32-bit values of clock and log have their
+            high word first; firmware version and module name never do (assumption; E75).
+        Errors: `DecodeError` for another number of items (`Fault.COUNT`), for what is no item (`NUMBER`: words are ints
+            0..65535, bits 0, 1 or bools), and for what is no value of the row; `wire` is empty.
         """
         row = self.find(key)
-        first, count = self._span(row, channels)
-        return value_of(row, tuple(items), first, count, self.profile, big_endian=big_endian)
+        first, count, one = self._span(row, key, channels)
+        values = values_of(row, tuple(items), first, count, self.profile, big_endian=big_endian)
+        return values[0] if one else values
 
     def plan(self, address: int, keys: Iterable[str | int], *, big_endian: bool = False) -> "Plan":
-        """Plan to read several rows in few requests: neighbours go together, no map has more than a frame holds."""
+        """Plan to read several rows in few requests: neighbours go together, no map has more than a frame holds.
+
+        Errors: `EncodeError` too for two things of one name: the two rows of a reading, two channels.
+        """
+        wanted: dict[str, tuple[Register, ReadItems, str | int]] = {}
+        for key in keys:
+            row, request = self.find(key), self.read(address, key)
+            if wanted.setdefault(row.name, (row, request, key))[:2] != (row, request):
+                reason = f"{row.name} is asked for twice, and values go by name"
+                raise EncodeError("keys", key, "one row or channel of a name", "3.4", reason)
         requests: list[ReadItems] = []
         places = []
-        for row in sorted({self.find(key) for key in keys}, key=lambda row: (row.area.value, row.address)):
-            request = self.read(address, row.number)
+        for row, request, key in sorted(wanted.values(), key=lambda it: (it[0].area.value, it[1].start)):
             last = requests[-1] if requests else None
             if isinstance(last, type(request)) and last.start + last.count == request.start:
                 requests[-1] = evolve(last, count=last.count + request.count)
             else:
                 requests.append(request)
-            places.append((row, len(requests) - 1, request.start - requests[-1].start, request.count))
+            places.append((row, len(requests) - 1, request.start - requests[-1].start, request.count, key))
         return Plan(tuple(requests), tuple(places), self, big_endian)
 
-    def _span(self, row: Register, channels: range | None) -> tuple[int, int]:
-        """Which items of a row are meant: the first, and how many."""
-        several = row.count > 1 and row.kind not in (Kind.UINT32, Kind.RECORD)
-        if channels is None:
-            return 0, min(row.count, self.profile.channels) if several else row.count
-        if not several or channels.step != 1 or not 0 <= channels.start < channels.stop <= row.count:
-            allowed = (
-                f"a range within 0..{row.count - 1}" if several else f"none: {row.name} is not for single channels"
-            )
-            raise EncodeError("channels", channels, allowed, "3.4")
-        return channels.start, len(channels)
+    def _span(self, row: Register, key: str | int, channels: range | None) -> tuple[int, int, bool]:
+        """Which values of a row are meant: the first, how many, and whether it is one by itself."""
+        most = row.count // row.kind.width
+        if channels is not None:
+            if most == 1 or channels.step != 1 or not 0 <= channels.start < channels.stop <= most:
+                several = f"a range within 0..{most - 1}"
+                allowed = several if most > 1 else f"none: {row.name} is not for single channels"
+                raise EncodeError("channels", channels, allowed, "3.4")
+            return channels.start, len(channels), False
+        place = _place(key, None)
+        if most == 1 or place:
+            return (place[1] - row.address) // row.kind.width if place else 0, 1, True
+        return 0, most if row.kind is Kind.RECORD else min(most, self.profile.channels), False
 
 
 def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:
@@ -196,24 +219,44 @@ class Plan:
     """
 
     requests: tuple[ReadItems, ...]
-    places: tuple[tuple[Register, int, int, int], ...]
-    """Of each row: the request that reads it, its first item in the response, and how many."""
+    places: tuple[tuple[Register, int, int, int, str | int], ...]
+    """Of each row: the request that reads it, its first item in the response, how many, and the key that it has."""
     registers: RegisterMap
     big_endian: bool
 
     def decode(self, responses: Sequence[Items | ExceptionResponse]) -> dict[str, Any]:
         """Tell the values by name; an exception is the value of all that it refused.
 
-        Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`.
+        Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`,
+            and for what does not answer its request: `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
         """
         if len(responses) != len(self.requests):
             raise EncodeError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
+        for request, response in zip(self.requests, responses, strict=True):
+            _check_response(request, response)
         values: dict[str, Any] = {}
-        for row, at, first, count in self.places:
+        for row, at, first, count, key in self.places:
             response = responses[at]
             if isinstance(response, ExceptionResponse):
                 values[row.name] = response
             else:
                 items = response.values[first : first + count]
-                values[row.name] = self.registers.decode(row.number, items, big_endian=self.big_endian)
+                values[row.name] = self.registers.decode(key, items, big_endian=self.big_endian)
         return values
+
+
+def _check_response(request: ReadItems, response: Items | ExceptionResponse) -> None:
+    """Refuse what does not answer a request."""
+    if isinstance(response, ExceptionResponse):
+        answers = response.function == request.function
+    else:
+        answers = isinstance(response, request.response)
+    if not answers:
+        allowed = f"{request.response.__name__}, or an exception of function {request.function:02X}"
+        raise DecodeError(Fault.FUNCTION, b"", field="responses", allowed=allowed, section=request.section)
+    if response.address != request.address:
+        allowed = f"{request.address:02X}, not {response.address:02X}"
+        raise DecodeError(Fault.ADDRESS, b"", field="responses", allowed=allowed, section=request.section)
+    if not isinstance(response, ExceptionResponse) and len(response.values) != request.count:
+        allowed = f"{request.count} items, not {len(response.values)}"
+        raise DecodeError(Fault.COUNT, b"", field="responses", allowed=allowed, section=request.section)

@@ -1,6 +1,7 @@
 """What the bits and words of a register mean: counts <-> values in units (manual 3.4, 3.5).
 
-Laws: `counts_of` is the inverse of `value_of`, and refuses what the row cannot hold.
+Laws: `counts_of` is the inverse of `values_of`, and refuses what the row cannot hold. An error of a decoder has no
+bytes in `wire` here: items come from a response, or from nowhere.
 """
 
 from collections.abc import Iterable
@@ -19,14 +20,20 @@ from i7000.type_codes import TypeCode
 
 __all__ = ["LogRecord", "readings"]
 
-_RECORD_READINGS, _RECORD_WORDS = 16, 18
+_RECORD_READINGS = 16
 _NAMED: dict[str, type[Enum]] = {
     "cjc_update": CjcUpdate,
     "protocol": Protocol,
     "modbus_data_format": ModbusDataFormat,
     "filter": Filter,
+    "type_code": TypeCode,
+    "module_type_code": TypeCode,
 }
-"""The rows whose numbers have names; those of type codes are `TypeCode`."""
+"""The rows whose numbers have names."""
+_CLEARED_BY: dict[str, int] = {"host_watchdog_timeout_count": 0, "host_watchdog_timed_out": 1}
+"""The rows that the module counts or sets, and what can be written to clear them."""
+_LOW_WORD_FIRST = ("firmware_version", "module_name")
+"""The 32-bit rows whose word order every map prints: the coil ``big_endian`` is not about them (E75)."""
 _NEARLY = 1e-6
 """Of a count: what a value in a unit may be off by, being a double."""
 
@@ -47,7 +54,7 @@ def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tup
     """Tell what the words of analog inputs mean, in the Modbus data format of the profile.
 
     Shape: the first word is that of `channel`.
-    Errors: `DecodeError` with `Fault.NUMBER` for a channel whose type the profile does not have, or no 16-bit word.
+    Errors: `DecodeError` with `Fault.NUMBER` for a channel whose type the profile does not have, or no int of 16 bits.
     Manual: 3.5, 1.11, A.5; E83.
 
     >>> from i7000 import Model
@@ -55,37 +62,51 @@ def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tup
     -10.0
     """
     values = tuple(words)
+    _check_items("words", values, 0xFFFF)
+    return _readings(values, channel, profile)
+
+
+def _readings(values: tuple[int, ...], channel: int, profile: Profile) -> tuple[Reading, ...]:
     types = profile.type_codes[channel : channel + len(values)] if channel >= 0 else ()
     if len(types) != len(values):
-        allowed = f"channels 0..{len(profile.type_codes) - 1} of the profile"
-        raise DecodeError(Fault.NUMBER, str(values).encode(), field="type_codes", allowed=allowed, section="3.5")
+        last = len(profile.type_codes) - 1
+        allowed = f"channels 0..{last} of the profile" if last >= 0 else "none: the profile knows no types"
+        raise DecodeError(Fault.NUMBER, b"", field="type_codes", allowed=allowed, section="3.5")
     engineering = profile.modbus_data_format is ModbusDataFormat.ENGINEERING
     decode = decode_engineering_word if engineering else decode_word
     return tuple(decode(word, type_code) for word, type_code in zip(values, types, strict=True))
 
 
-def value_of(  # noqa: PLR0913 - the row, and which items of it
+def values_of(  # noqa: PLR0913 - the row, and which values of it
     row: Register, items: tuple[int, ...], first: int, count: int, profile: Profile, *, big_endian: bool
-) -> Any:  # noqa: ANN401 - what the row holds
-    """Tell the value of a row, or of `count` items of it from `first` on."""
-    if len(items) != count:
-        wire = str(items).encode()
-        raise DecodeError(Fault.COUNT, wire, field=row.name, allowed=f"{count} items", section="3.4")
+) -> tuple[Any, ...]:
+    """Tell `count` values of a row, from its value `first` on."""
+    width = row.kind.width
+    if len(items) != count * width:
+        allowed = f"{count * width} items, not {len(items)}"
+        raise DecodeError(Fault.COUNT, b"", field=row.name, allowed=allowed, section="3.4")
+    _check_items(row.name, items, 1 if row.area.bits else 0xFFFF)
     if row.kind is Kind.READING:
-        return readings(items, profile, channel=first)
+        return _readings(items, first, profile)
     if row.kind is Kind.RECORD:
         return tuple(
             LogRecord(
-                readings(items[at : at + _RECORD_READINGS], profile),
-                _long(items[at + _RECORD_READINGS : at + _RECORD_WORDS], big_endian=big_endian),
+                _readings(items[at : at + _RECORD_READINGS], 0, profile),
+                _long(items[at + _RECORD_READINGS : at + width], big_endian=big_endian),
             )
-            for at in range(0, count, _RECORD_WORDS)
+            for at in range(0, len(items), width)
         )
     if row.kind is Kind.UINT32:
-        number = _long(items, big_endian=big_endian)
-        return number.to_bytes(4, "big") if row.name == "module_name" else number
-    values = tuple(_single(row, item) for item in items)
-    return values[0] if row.count == 1 else values
+        number = _long(items, big_endian=big_endian and row.name not in _LOW_WORD_FIRST)
+        return (number.to_bytes(4, "big") if row.name == "module_name" else number,)
+    return tuple(_single(row, item) for item in items)
+
+
+def _check_items(name: str, items: tuple[int, ...], most: int) -> None:
+    """Refuse what no response has: an item that is no int of its range; a bit may be a bool."""
+    for at, item in enumerate(items):
+        if not isinstance(item, int) or (isinstance(item, bool) and most > 1) or not 0 <= item <= most:
+            raise DecodeError(Fault.NUMBER, b"", field=name, allowed=f"0..{most}, item {at} is none", section="3.4")
 
 
 def _long(words: tuple[int, ...], *, big_endian: bool) -> int:
@@ -94,20 +115,24 @@ def _long(words: tuple[int, ...], *, big_endian: bool) -> int:
 
 
 def _single(row: Register, item: int) -> Any:  # noqa: ANN401
-    if row.name in ("type_code", "module_type_code"):
+    named = _NAMED.get(row.name)
+    if named is TypeCode:
         return TypeCode.of(item)
+    if named:
+        try:
+            return named(item)
+        except ValueError:
+            allowed = f"{row.minimum}..{row.maximum}, not {item}"
+            raise DecodeError(Fault.VALUE, b"", field=row.name, allowed=allowed, section="3.4") from None
     if row.name == "line_settings" and item <= 0xFF:
         return LineSettings.from_byte(item)
-    if row.name in _NAMED:
-        try:
-            return _NAMED[row.name](item)
-        except ValueError:
-            allowed = f"{row.minimum}..{row.maximum}"
-            raise DecodeError(Fault.VALUE, str(item).encode(), field=row.name, allowed=allowed, section="3.4") from None
     if row.kind is Kind.BOOL:
         return bool(item)
     if row.kind is Kind.INT8:
-        item = (item & 0xFF) - ((item & 0x80) << 1)
+        if item > 0xFF:
+            allowed = f"00 in the high byte, not {item >> 8:02X}"
+            raise DecodeError(Fault.RESERVED, b"", field=row.name, allowed=allowed, section="3.4")
+        item -= (item & 0x80) << 1
     if row.kind is Kind.INT16:
         item -= (item & 0x8000) << 1
     return item if row.scale in (None, 1) else item / _counts_per_unit(row)
@@ -119,20 +144,18 @@ def _counts_per_unit(row: Register) -> int:
 
 def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) -> tuple[int, ...]:  # noqa: ANN401
     """Tell the items that hold a value: one, or the two of a 32-bit number."""
-    number = value.byte if isinstance(value, LineSettings) and row.name == "line_settings" else value
-    if isinstance(number, Enum) and isinstance(number, _NAMED.get(row.name, ())):
-        number = number.value
+    number = _number_of(row, value)
     scale = _counts_per_unit(row)
-    if not isinstance(number, int | float) or number != number or abs(number) > 1 << 32:  # noqa: PLR0124 - NaN
-        raise EncodeError(row.name, value, "a number, or what stands for it", "3.4")
     counts = round(number * scale)
     low = 0 if row.minimum is None else row.minimum
     high = (0xFFFFFFFF if row.kind is Kind.UINT32 else 0xFFFF) if row.maximum is None else row.maximum
+    if row.name in _CLEARED_BY:
+        low = high = _CLEARED_BY[row.name]
     if abs(counts - number * scale) > _NEARLY or not low <= counts <= high:
         unit = f" {row.unit}" if row.unit else ""
-        allowed = f"{low / scale:g}..{high / scale:g}{unit} in steps of {1 / scale:g}"
+        allowed = f"{low / scale:g}..{high / scale:g}{unit} in steps of {1 / scale:g}" if low < high else f"{low}"
         raise EncodeError(row.name, value, allowed, "3.4")
-    if row.name in ("type_code", "module_type_code") and not profile.supports(counts):
+    if _NAMED.get(row.name) is TypeCode and not profile.supports(counts):
         allowed = f"{profile.supported_types()}: {profile.model.value}"
         raise EncodeError(row.name, f"{counts:02X}", allowed, "1.11")
     if row.name == "line_settings":
@@ -141,3 +164,20 @@ def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) 
         words = (counts & 0xFFFF, counts >> 16)
         return words[::-1] if big_endian else words
     return (counts & (0xFF if row.kind is Kind.INT8 else 0xFFFF),)
+
+
+def _number_of(row: Register, value: Any) -> int | float:  # noqa: ANN401
+    """Tell the number that a value is or stands for; bools are for coils, names for the rows that have them."""
+    if isinstance(value, LineSettings) and row.name == "line_settings":
+        return value.byte
+    own = isinstance(value, _NAMED.get(row.name, ()))
+    number = value.value if own else value
+    if (
+        not isinstance(number, int | float)
+        or isinstance(number, Enum)
+        or (isinstance(number, bool) and row.kind is not Kind.BOOL)
+        or number != number  # noqa: PLR0124 - NaN
+        or abs(number) > 1 << 32
+    ):
+        raise EncodeError(row.name, value, "a number, or what stands for it", "3.4")
+    return number

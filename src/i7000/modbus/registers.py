@@ -41,11 +41,16 @@ class Kind(Enum):
     INT8 = "int8"
     """The low byte in two's complement, the high byte zero (E62)."""
     UINT32 = "uint32"
-    """Two registers, the low word first, unless the coil ``big_endian`` says otherwise (E75)."""
+    """Two registers, the low word first; where clock and log are concerned, as the coil ``big_endian`` says (E75)."""
     CODE = "code"
     BITS = "bits"
     RECORD = "record"
     """16 readings and a time stamp of two registers."""
+
+    @property
+    def width(self) -> int:
+        """Items that one value takes."""
+        return {Kind.UINT32: 2, Kind.RECORD: _RECORD_WORDS}.get(self, 1)
 
 
 class Access(Enum):

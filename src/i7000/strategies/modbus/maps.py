@@ -18,12 +18,15 @@ from i7000.strategies.vocabulary import line_settings, supported_types, word_rea
 
 __all__ = ["plans", "register_items", "register_maps", "register_values", "registers"]
 
-_CHOICES: Mapping[str, type[Enum]] = {
+_CHOICES: Mapping[str, type[Enum] | tuple[int, ...]] = {
     "cjc_update": CjcUpdate,
     "protocol": Protocol,
     "modbus_data_format": ModbusDataFormat,
     "filter": Filter,
+    "host_watchdog_timeout_count": (0,),
+    "host_watchdog_timed_out": (True,),
 }
+"""What can be written to rows of few values; the last two can only be cleared."""
 _RECORD_WORDS = 18
 _HIGHEST = {Kind.UINT32: 0xFFFFFFFF, Kind.INT16: 0x7FFF}
 
@@ -50,20 +53,25 @@ def _rows(found: RegisterMap) -> list[Register]:
 
 @st.composite
 def plans(draw: st.DrawFn) -> Plan:
-    """Make plans to read some rows of a map, each thing by one of its numbers."""
+    """Make plans to read some rows of a map, each thing by its name or by its first number."""
     found = draw(register_maps())
     wanted = draw(st.lists(registers(found.profile, readable=True), unique_by=lambda row: row.name, min_size=1))
-    return found.plan(draw(st.integers(1, 247)), [row.number for row in wanted])
+    keys = [draw(st.sampled_from((row.name, row.number))) for row in wanted]
+    return found.plan(draw(st.integers(1, 247)), keys)
 
 
 def register_items(row: Register, profile: Profile) -> SearchStrategy[tuple[int, ...]]:
-    """Make the items of a row as a module may send them: any bits or words."""
+    """Make the items of a row as a module may send them: any bits or words, bytes where the high one is zero."""
     count = _items(row, profile)
-    return st.tuples(*[st.booleans() if row.area.bits else st.integers(0, 0xFFFF)] * count)
+    most = 0xFF if row.kind is Kind.INT8 else 0xFFFF
+    return st.tuples(*[st.booleans() if row.area.bits else st.integers(0, most)] * count)
 
 
 def register_values(row: Register, profile: Profile) -> SearchStrategy[Any]:
-    """Make what a row of the map of a module holds whose types are known: a value, or one for each channel."""
+    """Make what a row of the map of a module holds whose types are known: a value, or one for each channel.
+
+    Special: of what can only be cleared, the value that clears it.
+    """
     count = _items(row, profile)
     if row.kind is Kind.READING:
         return st.tuples(*[word_readings(code, profile.modbus_data_format) for code in profile.type_codes[:count]])
