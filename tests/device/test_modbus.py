@@ -249,11 +249,11 @@ def test_any_request_keeps_the_watchdog_from_timing_out_and_refused_ones_do_not(
 def test_writing_clears_the_time_out_and_its_count() -> None:
     module = rtu(Model.M_7017, host_watchdog_timed_out=True, host_watchdog_timeouts=3)
 
-    module.write("host_watchdog_timed_out", False)
+    assert module.ask(modbus.WriteSingleCoil(1, 269, False)).exception_code == VALUE
     assert module.read("host_watchdog_timed_out")
     module.write("host_watchdog_timed_out", True)
     assert not module.read("host_watchdog_timed_out")
-    assert module.write("host_watchdog_timeout_count", 1).exception_code == VALUE
+    assert module.ask(modbus.WriteSingleRegister(1, 491, 1)).exception_code == VALUE
     assert module.read("host_watchdog_timeout_count") == 3
     module.write("host_watchdog_timeout_count", 0)
     assert module.read("host_watchdog_timeout_count") == 0

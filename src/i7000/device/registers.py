@@ -25,7 +25,7 @@ from i7000.device.signals import Signals
 from i7000.device.state import Eeprom, State
 from i7000.errors import DecodeError, EncodeError
 from i7000.modbus import Access, Area, ExceptionCode, Kind, Register, SetCommunicationSettings
-from i7000.modbus.register_values import counts_of, value_of
+from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import rows
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
@@ -243,14 +243,13 @@ def _values(row: Register, new: dict[int, int], context: Context) -> tuple[Any, 
         words[at] = item
     profile, big_endian = context.state.profile, context.eeprom.big_endian
     try:
-        value = value_of(row, tuple(words), 0, row.count, profile, big_endian=big_endian)
-        values = value if isinstance(value, tuple) else (value,)
+        values = values_of(row, tuple(words), 0, row.count // row.kind.width, profile, big_endian=big_endian)
         held = [it for one in values for it in counts_of(row, one, profile, big_endian=big_endian)]
         if row.name == "line_settings":
-            SetCommunicationSettings(context.eeprom.address, value, context.eeprom.protocol).check(profile)
+            SetCommunicationSettings(context.eeprom.address, values[0], context.eeprom.protocol).check(profile)
     except (DecodeError, EncodeError):
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
-    if held != words or (row.name == "host_watchdog_timeout_count" and value):
+    if held != words:
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
     return values
 
