@@ -244,13 +244,12 @@ def _values(row: Register, new: dict[int, int], context: Context) -> tuple[Any, 
     profile, big_endian = context.state.profile, context.eeprom.big_endian
     try:
         values = values_of(row, tuple(words), 0, row.count // row.kind.width, profile, big_endian=big_endian)
-        held = [it for one in values for it in counts_of(row, one, profile, big_endian=big_endian)]
+        for value in values:
+            counts_of(row, value, profile, big_endian=big_endian)
         if row.name == "line_settings":
             SetCommunicationSettings(context.eeprom.address, values[0], context.eeprom.protocol).check(profile)
     except (DecodeError, EncodeError):
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
-    if held != words:
-        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
     return values
 
 
