@@ -1,12 +1,15 @@
 """What the CRC notices, and what is found in every stream of Modbus frames and noise."""
 
+from typing import Any
+
 import pytest
-from hypothesis import HealthCheck, assume, example, given, settings
+from attrs import frozen
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from i7000 import DecodeError, Fault, Noise, Profile, modbus
 from i7000.modbus import Side
-from i7000.strategies.modbus import DAMAGES, Exchange, Stream, chunkings, exchanges, frames, profiles, streams
+from i7000.strategies.modbus import DAMAGES, Exchange, chunkings, exchanges, frames, profiles, streams
 
 # --- what the CRC notices, and what it cannot -------------------------------------------------------------------------
 
@@ -125,21 +128,31 @@ def test_a_body_that_is_sealed_is_unsealed_if_it_has_the_length_of_a_frame(body:
 Events = list[bytes | Noise]
 
 
-def split(pieces: tuple[bytes, ...], side: Side, profile: Profile | None) -> tuple[Events, bytes]:
-    """What is found in a stream that arrives in pieces; each rest is shorter than a frame."""
-    found: Events = []
-    rest = b""
-    for piece in pieces:
-        events, rest = modbus.split(rest + piece, side, profile)
-        assert len(rest) < modbus.LONGEST_FRAME
-        found += events
-    return found, rest
+@frozen
+class Listener:
+    """What is known of a stream beforehand."""
 
+    side: Side = Side.BOTH
+    profile: Profile | None = None
+    request: modbus.Request[Any] | None = None
 
-def split_to_the_end(pieces: tuple[bytes, ...], side: Side, profile: Profile | None) -> Events:
-    """What is found in a stream after which the line falls silent."""
-    found, rest = split(pieces, side, profile)
-    return [*found, *modbus.flush(rest, side, profile)]
+    def split(self, pieces: tuple[bytes, ...]) -> tuple[Events, bytes]:
+        """What is found in a stream that arrives in pieces; each rest is shorter than a frame."""
+        found: Events = []
+        rest = b""
+        for piece in pieces:
+            events, rest = modbus.split(rest + piece, self.side, self.profile, request=self.request)
+            assert len(rest) < modbus.LONGEST_FRAME
+            found += events
+        return found, rest
+
+    def flush(self, rest: bytes) -> Events:
+        return list(modbus.flush(rest, self.side, self.profile, request=self.request))
+
+    def split_to_the_end(self, pieces: tuple[bytes, ...]) -> Events:
+        """What is found in a stream after which the line falls silent."""
+        found, rest = self.split(pieces)
+        return [*found, *self.flush(rest)]
 
 
 def runs(events: Events) -> tuple[bytes | Noise, ...]:
@@ -162,92 +175,102 @@ def chopped(wires: st.SearchStrategy[bytes]) -> st.SearchStrategy[tuple[bytes, t
     return wires.flatmap(lambda wire: st.tuples(st.just(wire), chunkings(wire)))
 
 
-SIDES = st.sampled_from(Side)
+LISTENERS = st.builds(Listener, st.sampled_from(Side), st.none() | profiles()) | exchanges().map(
+    lambda exchange: Listener(profile=exchange.profile, request=exchange.request)
+)
 LIKELY = st.sampled_from((0x00, 0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F, 0x10, 0x46, 0x83, 0xC6, 0xFF))
 MANY_BYTES = st.binary(max_size=1000) | st.lists(
     st.binary(max_size=4) | st.lists(LIKELY, max_size=12).map(bytes) | frames(), max_size=12
 ).map(b"".join)
 """Bytes of every kind, and such as look like frames, or are."""
 
-
-@given(streams())
-def test_every_frame_of_a_stream_is_found_and_all_noise_is_named(stream: Stream) -> None:
-    assert stream.events == runs(split_to_the_end((stream.wire,), stream.side, stream.profile))
+each_side = pytest.mark.parametrize("side", Side)
 
 
-@given(streams().flatmap(lambda stream: st.tuples(st.just(stream), chunkings(stream.wire))))
-def test_however_a_stream_arrives_the_same_is_found(case: tuple[Stream, tuple[bytes, ...]]) -> None:
-    stream, pieces = case
-
-    assert stream.events == runs(split_to_the_end(pieces, stream.side, stream.profile))
-
-
-@pytest.mark.parametrize("side", Side)
-@given(st.data())
-def test_a_stream_of_frames_alone_is_split_at_once(side: Side, data: st.DataObject) -> None:
+@each_side
+@given(data=st.data())
+def test_every_frame_of_a_stream_is_found_and_all_noise_is_named(side: Side, data: st.DataObject) -> None:
     stream = data.draw(streams(side))
-    found = [event for event in stream.events if isinstance(event, bytes)]
 
-    assert (tuple(found), b"") == modbus.split(b"".join(found), side, stream.profile)
+    assert stream.events == runs(Listener(side, stream.profile).split_to_the_end((stream.wire,)))
 
 
-@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
-def test_no_byte_of_a_stream_is_lost(
-    case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None
-) -> None:
+@each_side
+@given(data=st.data())
+def test_however_a_stream_arrives_the_same_is_found(side: Side, data: st.DataObject) -> None:
+    stream = data.draw(streams(side))
+    pieces = data.draw(chunkings(stream.wire))
+
+    assert stream.events == runs(Listener(side, stream.profile).split_to_the_end(pieces))
+
+
+@given(chopped(MANY_BYTES), LISTENERS)
+def test_no_byte_of_a_stream_is_lost(case: tuple[bytes, tuple[bytes, ...]], listener: Listener) -> None:
     wire, pieces = case
 
-    events, rest = split(pieces, side, profile)
+    events, rest = listener.split(pieces)
 
     assert wire == wires(events) + rest
-    assert rest == wires(list(modbus.flush(rest, side, profile)))
+    assert rest == wires(listener.flush(rest))
 
 
-@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
+@given(chopped(MANY_BYTES), LISTENERS)
 def test_any_bytes_are_split_the_same_however_they_arrive(
-    case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None
+    case: tuple[bytes, tuple[bytes, ...]], listener: Listener
 ) -> None:
     wire, pieces = case
     one_by_one = tuple(wire[at : at + 1] for at in range(len(wire)))
 
-    whole, rest = split((wire,), side, profile)
+    whole, rest = listener.split((wire,))
 
     for chunks in (pieces, one_by_one):
-        events, kept = split(chunks, side, profile)
+        events, kept = listener.split(chunks)
         assert rest == kept
         assert runs(whole) == runs(events)
 
 
-@given(chopped(MANY_BYTES), SIDES, st.none() | profiles())
-def test_what_is_found_is_a_frame(case: tuple[bytes, tuple[bytes, ...]], side: Side, profile: Profile | None) -> None:
-    for event in split_to_the_end(case[1], side, profile):
+@given(chopped(MANY_BYTES), LISTENERS)
+def test_what_is_found_is_a_frame(case: tuple[bytes, tuple[bytes, ...]], listener: Listener) -> None:
+    for event in listener.split_to_the_end(case[1]):
         if isinstance(event, bytes):
             assert event[:-2] == modbus.unseal(event)
         else:
             assert event.wire
 
 
-@given(st.data(), SIDES)
+@given(st.data(), st.sampled_from(Side))
 def test_a_frame_without_its_end_is_kept_for_later(data: st.DataObject, side: Side) -> None:
-    profile = data.draw(profiles())
-    frame = data.draw(frames(side, profile))
+    listener = Listener(side, data.draw(profiles()))
+    frame = data.draw(frames(side, listener.profile))
     end = data.draw(st.integers(0, len(frame) - 1))
-    assume(all(modbus.crc16(frame[:length]) for length in range(modbus.SHORTEST_FRAME, len(frame))))
 
-    assert modbus.split(frame[:end], side, profile) == ((), frame[:end])
-    assert modbus.split(frame, side, profile) == ((frame,), b"")
+    assert listener.split((frame[:end],)) == ([], frame[:end])
+    assert listener.split_to_the_end((frame[:end], frame[end:])) == [frame]
+
+
+@given(exchanges(), st.lists(frames(Side.REQUESTS), max_size=3).map(b"".join))
+def test_with_the_open_request_its_answer_alone_is_a_frame(exchange: Exchange, others: bytes) -> None:
+    request, answer = exchange.request, exchange.response_wire
+    listener = Listener(profile=exchange.profile, request=request)
+
+    assert listener.split((answer,)) == ([answer], b"")
+    for frame in listener.split_to_the_end((others, answer)):
+        if isinstance(frame, bytes):
+            assert frame[0] == request.address
+            assert frame[1] & 0x7F == request.function
 
 
 @given(st.binary(min_size=2, max_size=2), st.integers(1, 247), st.sampled_from((0x03, 0x04)))
-def test_of_a_response_and_a_request_that_begin_alike_the_shorter_is_found(
+def test_of_a_response_and_a_request_that_begin_alike_the_longer_is_found(
     word: bytes, address: int, function: int
 ) -> None:
     response = modbus.seal(bytes((address, function, 2)) + word)
     request = response + b"\0"  # of which the CRC is good too
 
     assert request[:-2] == modbus.unseal(request)
-    assert modbus.split(request) == ((response,), b"\0")
-    assert modbus.split(request, Side.REQUESTS) == ((request,), b"")
+    assert Listener().split((request,)) == ([request], b"")
+    assert Listener().split_to_the_end((response,)) == [response]
+    assert Listener(Side.RESPONSES).split((request,))[0][0] == response
 
 
 @given(exchanges(), st.binary(max_size=8))
@@ -255,7 +278,7 @@ def test_an_echo_is_dropped_and_nothing_else(exchange: Exchange, more: bytes) ->
     sent = exchange.request_wire
 
     assert modbus.drop_echo(sent + more, sent) == more
-    assert {modbus.drop_echo(sent[:end], sent) for end in range(len(sent) + 1)} == {b""}
+    assert [modbus.drop_echo(sent[:end], sent) for end in range(len(sent))] == [None] * len(sent)
     for wire in DAMAGES["flipped bit"](sent):
         with pytest.raises(DecodeError) as caught:
             modbus.drop_echo(wire + more, sent)

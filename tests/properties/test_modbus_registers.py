@@ -134,6 +134,21 @@ def test_any_items_that_a_module_may_send_are_a_value_or_a_decode_error(data: st
         assert value.section
 
 
+NO_WORDS = st.integers(max_value=-1) | st.integers(min_value=0x10000) | st.just(10**5000) | st.floats() | st.none()
+
+
+@given(register_maps(), NO_WORDS, st.data())
+def test_what_is_no_item_is_refused(found: RegisterMap, item: Any, data: st.DataObject) -> None:
+    row = data.draw(registers(found.profile))
+    items = [*data.draw(register_items(row, found.profile))[1:], item]
+
+    with pytest.raises(DecodeError) as caught:
+        found.decode(row.name, items)
+
+    assert caught.value.fault is Fault.NUMBER
+    assert caught.value.field == row.name
+
+
 @given(register_maps(), st.lists(st.integers(0, 0xFFFF), max_size=20), st.data())
 def test_another_number_of_items_than_the_row_has_is_refused(
     found: RegisterMap, items: list[int], data: st.DataObject

@@ -230,7 +230,7 @@ def test_damage_is_what_its_label_says() -> None:
     assert modbus.seal(b"\x01\x83\x03") in done["flipped bit, right CRC"]
 
 
-@pytest.mark.parametrize("fault", [Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION, Fault.CRC])
+@pytest.mark.parametrize("fault", [Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION, Fault.CRC, Fault.LENGTH])
 def test_streams_have_noise_of_every_fault(fault: Fault) -> None:
     def has_fault(stream: Stream) -> bool:
         return any(isinstance(event, Noise) and event.fault is fault for event in stream.events)

@@ -26,6 +26,7 @@ from i7000 import (
     TypeCode,
     series,
 )
+from i7000.settings import channels_of, mask_of
 from i7000.strategies import errors, firmwares, line_settings, profiles, report_settings
 
 BYTES = range(0x100)
@@ -126,6 +127,11 @@ def test_a_profile_of_anything_is_a_profile_or_refused(values: dict[str, object]
 def test_a_mask_has_a_place_for_every_channel(profile: Profile) -> None:
     assert profile.channels <= 4 * profile.mask_digits < profile.channels + 8
     assert profile.channels <= 16**profile.channel_digits
+
+
+@given(st.integers(0, (1 << 20) - 1))
+def test_a_mask_is_that_of_its_channels(mask: int) -> None:
+    assert mask == mask_of(channels_of(mask))
 
 
 @given(profiles(), profiles())

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from i7000 import Fault, Noise, Profile
-from i7000.modbus import LONGEST_FRAME, Side, encode, seal
+from i7000.modbus import LONGEST_FRAME, SHORTEST_FRAME, Side, crc16, encode, seal
 from i7000.strategies.modbus.messages import exchanges, profiles, requests
 from i7000.strategies.wires import Damage, Damages, chunkings, damaged_by, each_byte, flipped_bits
 
@@ -57,7 +57,8 @@ DAMAGES: Damages = {
 # --- streams ----------------------------------------------------------------------------------------------------------
 
 _FUNCTIONS = bytes((*range(0x01, 0x07), 0x0F, 0x10, 0x46))
-_SHORTEST_ANSWER = 5
+_TELLING = 7
+"""Bytes that tell the length of every frame."""
 _NO_ADDRESSES = bytes(range(0xF8, 0x100))
 _NO_FUNCTIONS = bytes(sorted(set(range(0xF8)) - {it | bit for it in _FUNCTIONS for bit in (0, 0x80)}))
 _NO_SUB_FUNCTIONS = bytes(range(0x31, 0xF8))
@@ -91,7 +92,7 @@ def streams(draw: st.DrawFn, side: Side | None = None) -> Stream:
     """Make streams of frames and noise, of one side or of any."""
     side = side or draw(st.sampled_from(Side))
     profile = draw(st.none() | profiles())
-    kinds: list[Callable[[st.DrawFn, Side, Profile | None], bytes | Noise]] = [
+    kinds: list[Callable[[st.DrawFn, Side, Profile | None], _Events]] = [
         _frame,
         _foreign,
         _without_function,
@@ -100,72 +101,78 @@ def streams(draw: st.DrawFn, side: Side | None = None) -> Stream:
         _cut_short,
     ]
     events: list[bytes | Noise] = []
-    for kind in draw(st.lists(st.sampled_from(kinds), max_size=8)):
-        event = kind(draw, side, profile)
-        last = events[-1] if events else None
-        if isinstance(last, Noise) and isinstance(event, Noise):
-            events[-1] = Noise(last.wire + event.wire, last.fault)
-        else:
-            events.append(event)
+    for kind in [*draw(st.lists(st.sampled_from(kinds), max_size=8)), *draw(st.sampled_from(([], [_unfinished])))]:
+        for event in kind(draw, side, profile):
+            last = events[-1] if events else None
+            if isinstance(last, Noise) and isinstance(event, Noise):
+                events[-1] = Noise(last.wire + event.wire, last.fault)
+            else:
+                events.append(event)
     wire = b"".join(event.wire if isinstance(event, Noise) else event for event in events)
     assume(_is_unambiguous(wire, events))
     return Stream(wire, side, profile, tuple(events))
 
 
-def _frame(draw: st.DrawFn, side: Side, profile: Profile | None) -> bytes:
-    return draw(frames(side, profile))
+_Events = list[bytes | Noise]
 
 
-def _foreign(draw: st.DrawFn, *_: object) -> Noise:
+def _frame(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
+    return [draw(frames(side, profile))]
+
+
+def _foreign(draw: st.DrawFn, *_: object) -> _Events:
     first, others = draw(st.sampled_from(_NO_ADDRESSES)), draw(st.binary(max_size=20))
-    return Noise(bytes((first,)) + others, Fault.ADDRESS)
+    return [Noise(bytes((first,)) + others, Fault.ADDRESS)]
 
 
-def _without_function(draw: st.DrawFn, *_: object) -> Noise:
+def _without_function(draw: st.DrawFn, *_: object) -> _Events:
     address, function = draw(st.integers(1, 247)), draw(st.sampled_from(_NO_FUNCTIONS))
-    return Noise(bytes((address, function)), Fault.FUNCTION)
+    return [Noise(bytes((address, function)), Fault.FUNCTION)]
 
 
-def _without_sub_function(draw: st.DrawFn, *_: object) -> Noise:
+def _without_sub_function(draw: st.DrawFn, *_: object) -> _Events:
     address, sub_function = draw(st.integers(1, 247)), draw(st.sampled_from(_NO_SUB_FUNCTIONS))
-    return Noise(bytes((address, 0x46, sub_function)), Fault.SUB_FUNCTION)
+    return [Noise(bytes((address, 0x46, sub_function)), Fault.SUB_FUNCTION)]
 
 
-def _with_wrong_crc(draw: st.DrawFn, side: Side, profile: Profile | None) -> Noise:
+def _with_wrong_crc(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
     frame = draw(frames(side, profile))
-    return Noise(draw(st.sampled_from([wire for wire in _wrong_crcs(frame) if wire != frame])), Fault.CRC)
+    return [Noise(draw(st.sampled_from([wire for wire in _wrong_crcs(frame) if wire != frame])), Fault.CRC)]
 
 
-def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> Noise:
-    """Cut a frame off behind the bytes that tell its length."""
+def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
+    """Cut a frame off behind the bytes that tell its length; the next one has more than those that it lacks."""
     frame = draw(frames(side, profile))
-    return Noise(frame[: draw(st.integers(min(7, len(frame) - 1), len(frame) - 1))], Fault.CRC)
+    last = len(frame) - 1
+    end = draw(st.integers(max(min(_TELLING, last), last - 3), last))
+    return [Noise(frame[:end], Fault.CRC), draw(frames(side, profile))]
+
+
+def _unfinished(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
+    """Begin a frame with fewer bytes than any has."""
+    return [Noise(draw(frames(side, profile))[: draw(st.integers(1, 4))], Fault.LENGTH)]
 
 
 def _is_unambiguous(wire: bytes, events: list[bytes | Noise]) -> bool:
-    """Tell whether no CRC is good by accident: none that begins in noise, none of a part of a frame."""
-    ends: dict[int, int] = {}
+    """Tell whether no CRC is good but those of the frames: none that begins in noise or with a frame by accident."""
+    ends: dict[int, list[int]] = {}
     at = 0
     for event in events:
         if isinstance(event, Noise):
-            ends |= {place: 0 for place in range(at, at + len(event.wire)) if wire[place + 1 : place + 2] in _STARTS}
+            ends |= {place: [] for place in range(at, at + len(event.wire))}
             at += len(event.wire)
         else:
-            ends[at] = at + len(event)
-            at = ends[at]
-    return all(_good_end(wire, place) == end for place, end in ends.items())
+            ends[at] = [at + len(event)]
+            at += len(event)
+    return all(_good_ends(wire, place) == good for place, good in ends.items())
 
 
 _STARTS = {bytes((function | bit,)) for function in _FUNCTIONS for bit in (0, 0x80)}
 
 
-def _good_end(wire: bytes, at: int) -> int:
-    """Tell where the first CRC is good that begins at a place; 0 if none is."""
-    crc = 0xFFFF
-    for end, byte in enumerate(wire[at : at + LONGEST_FRAME], at + 1):
-        crc ^= byte
-        for _ in range(8):
-            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
-        if not crc and end >= at + _SHORTEST_ANSWER:
-            return end
-    return 0
+def _good_ends(wire: bytes, at: int) -> list[int]:
+    """Tell where a CRC is good that begins at a place: at the end of the wire, or anywhere if a function is there."""
+    if wire[at + 1 : at + 2] not in _STARTS:
+        return [] if crc16(wire[at:]) else [len(wire)]
+    longest = min(len(wire), at + LONGEST_FRAME)
+    return [end for end in range(at + SHORTEST_FRAME, longest + 1) if not crc16(wire[at:end])]

@@ -100,13 +100,15 @@ def any_requests(profile: Profile) -> SearchStrategy[Request[Any]]:
 def responses(request: Request[R], profile: Profile) -> SearchStrategy[R | ExceptionResponse]:
     """Make responses that `i7000.modbus.encode` takes for `profile`, and that answer `request`, which is to one module.
 
-    Shape: as many items as were asked for; what a write repeats is repeated.
+    Shape: as many items as were asked for; what a write repeats is repeated; no reserved bits.
     """
     known: dict[str, Any] = {"address": request.address}
     if isinstance(request, ReadCoils | ReadDiscreteInputs | ReadHoldingRegisters | ReadInputRegisters):
         known["count"] = request.count
     elif isinstance(request, WriteMultipleCoils | WriteMultipleRegisters):
         known |= {"start": request.start, "count": len(request.values)}
+    elif isinstance(request, ReadCjcOffset):
+        known["channel"] = request.channel
     elif request.broadcast:
         known |= {it.name: getattr(request, it.name) for it in fields(type(request))}
     valid = _messages(request.response, profile, accepted=True, known=known)
@@ -156,7 +158,7 @@ def _built(
         if name in known:
             values[name] = known[name]
             continue
-        part = _settable(kind, name, profile, values) if accepted else None
+        part = _settable(kind, name, profile, values | known) if accepted else None
         values[name] = draw(_part(kind, attribute, profile, values | known) if part is None else part)
     return kind(**values)
 
@@ -171,7 +173,7 @@ def _settable(  # noqa: PLR0911 - a table
             return st.sampled_from((0, *range(FIRST_CHANNEL, FIRST_CHANNEL + profile.channels)))
         case "channel":
             return st.integers(0, profile.channels - 1 if profile.individually_configurable else 0)
-        case "offset" if of_offset:
+        case "offset" if "channel" in values:
             return st.integers(0, 0xFF) if values["channel"] else st.integers(-OFFSET_LIMIT, OFFSET_LIMIT)
         case "mask":
             return st.integers(0, (1 << profile.channels) - 1)
