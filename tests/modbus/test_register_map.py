@@ -699,3 +699,19 @@ def test_bytes_are_no_value() -> None:
 
     with pytest.raises(EncodeError, match="response_delay cannot be"):
         registers.write(0x01, "response_delay", b"\x05")
+
+
+@pytest.mark.parametrize("data_format", list(ModbusDataFormat))
+def test_the_words_of_readings_are_read_as_the_readings(data_format: ModbusDataFormat) -> None:
+    profile = Profile(Model.M_7019R, modbus_data_format=data_format)
+    values = [Reading(value, Unit.VOLT) for value in (-10.0, 0.0, 2.5, 10.0)]
+
+    told = modbus.readings(modbus.words(values, profile, channel=2), profile, channel=2)
+
+    assert [it.value for it in values] == [pytest.approx(it.value, abs=0.001) for it in told]
+
+
+@pytest.mark.parametrize("channel", [-1, 8])
+def test_words_are_of_channels_that_are_there(channel: int) -> None:
+    with pytest.raises(EncodeError, match="channel cannot be"):
+        modbus.words([Reading(0.0, Unit.VOLT)], Profile(Model.M_7019R), channel=channel)

@@ -69,6 +69,7 @@ from i7000.modbus.register_map import (
 from i7000.modbus.register_values import (
     LogRecord,
     readings,
+    words,
 )
 from i7000.modbus.registers import (
     Access,
@@ -194,4 +195,5 @@ __all__ = [
     "seal",
     "split",
     "unseal",
+    "words",
 ]

@@ -14,11 +14,17 @@ from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus.module_settings import check_line
 from i7000.modbus.registers import Kind, Register
 from i7000.profile import Profile
-from i7000.readings import Reading, decode_engineering_word, decode_word
+from i7000.readings import (
+    Reading,
+    decode_engineering_word,
+    decode_word,
+    encode_engineering_word,
+    encode_word,
+)
 from i7000.settings import CjcUpdate, Filter, LineSettings, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["LogRecord", "readings"]
+__all__ = ["LogRecord", "readings", "words"]
 
 _RECORD_READINGS = 16
 _NAMED: dict[str, type[Enum]] = {
@@ -64,6 +70,26 @@ def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tup
     values = tuple(words)
     _check_items("words", values, 0xFFFF)
     return _readings(values, channel, profile)
+
+
+def words(values: Iterable[Reading], profile: Profile, *, channel: int = 0) -> tuple[int, ...]:
+    """Write the words of analog inputs: what `readings` tells, the other way round.
+
+    Shape: the first reading is that of `channel`.
+    Errors: `EncodeError` for a reading that its channel cannot have, and for a channel whose type is not known.
+    Manual: 3.5, 1.11, A.5; E83.
+
+    >>> from i7000 import Model, Unit
+    >>> words([Reading(-10.0, Unit.VOLT)], Profile(Model.M_7017))
+    (32768,)
+    """
+    found = tuple(values)
+    types = profile.type_codes[channel : channel + len(found)] if channel >= 0 else ()
+    if len(types) != len(found):
+        raise EncodeError("channel", channel, f"channels whose types are known: {len(profile.type_codes)}", "3.5")
+    engineering = profile.modbus_data_format is ModbusDataFormat.ENGINEERING
+    encode = encode_engineering_word if engineering else encode_word
+    return tuple(encode(value, type_code) for value, type_code in zip(found, types, strict=True))
 
 
 def _readings(values: tuple[int, ...], channel: int, profile: Profile) -> tuple[Reading, ...]:
