@@ -334,6 +334,23 @@ def test_spare_bits_that_are_set_are_refused(count: int, asked: Any, data: st.Da
 
 
 @given(st.data())
+def test_reserved_bits_of_an_answer_are_refused(data: st.DataObject) -> None:
+    profile = data.draw(profiles_with(modbus.ReadCjcOffset))
+    bit = data.draw(st.sampled_from((0, 1, 2, 3, 4, 6)))
+    channel = data.draw(st.integers(0x80, 0x7F + profile.channels))
+    answers: dict[modbus.Request[Any], modbus.Response] = {
+        modbus.ReadMiscellaneousSettings(1): modbus.MiscellaneousSettings(1, 0xA0 | 1 << bit),
+        modbus.ReadCjcOffset(1, channel): modbus.CjcOffset(1, 0x100 << bit),
+    }
+
+    for request, answer in answers.items():
+        with pytest.raises(DecodeError) as caught:
+            modbus.decode_response(modbus.encode(answer), request, profile)
+
+        assert caught.value.fault is Fault.RESERVED
+
+
+@given(st.data())
 def test_the_answer_to_another_write_is_refused(data: st.DataObject) -> None:
     profile = data.draw(profiles_with(modbus.WriteSingleCoil))
     kind = data.draw(st.sampled_from(BROADCASTS))

@@ -1,5 +1,6 @@
 """What holds for every row of the address maps, and for every plan to read some."""
 
+from math import inf, nan
 from typing import Any
 
 import pytest
@@ -167,6 +168,18 @@ ANY_VALUE = st.one_of(
     st.none(), st.booleans(), st.integers(), st.integers(min_value=1 << 64), st.floats(), st.text(), st.binary(),
     st.lists(st.integers() | st.floats(), max_size=20), st.from_type(type(Protocol.DCON)), st.complex_numbers(),
 )  # fmt: skip
+
+
+@pytest.mark.parametrize("value", [nan, inf, -inf, 1e308, 10**400], ids=["nan", "inf", "-inf", "1e308", "huge"])
+@FEW
+@given(found=register_maps(), data=st.data())
+def test_what_is_no_number_of_a_size_that_a_row_has_is_refused(
+    value: float, found: RegisterMap, data: st.DataObject
+) -> None:
+    row = data.draw(registers(found.profile, writable=True))
+
+    with pytest.raises(EncodeError):
+        found.write(0x01, row.number, value)
 
 
 @given(register_maps(), ANY_VALUE, st.data())

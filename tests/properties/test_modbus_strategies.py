@@ -192,8 +192,11 @@ def test_values_go_to_the_ends_of_their_range(profile: Profile, name: str, value
     assert value == find(register_values(row, profile), lambda it: it == value, settings=LONG)
 
 
-def test_the_map_of_old_firmware_has_few_rows() -> None:
+def test_the_map_of_old_firmware_has_few_rows_and_none_to_write() -> None:
     old = Profile(Model.M_7018, firmware=Firmware("B1.0"))
+
+    assert registers(old, writable=True).is_empty
+    assert registers(Profile(Model.I_7018)).is_empty
 
     assert [row.name for row in RegisterMap(old)] == ["analog_input", "cjc_temperature"]
     assert isinstance(smallest(registers(old)), Register)
