@@ -9,7 +9,8 @@ from i7000.type_codes import TypeCode, Unit
 
 __all__ = ["Profile"]
 
-_LAST_LEGACY = Firmware("B1.4")
+LAST_LEGACY = Firmware("B1.4")
+"""The last firmware of the I-7018 series with readings out of range in five characters (E49)."""
 
 
 @frozen
@@ -61,7 +62,7 @@ class Profile:
         derive(self, "channels", channels)
         derive(self, "channel_digits", 2 if self.single_ended else 1)
         derive(self, "mask_digits", (channels + 7) // 8 * 2)
-        old = self.firmware is not None and self.firmware <= _LAST_LEGACY
+        old = self.firmware is not None and self.firmware <= LAST_LEGACY
         derive(self, "legacy_sentinels", old and self.model.value.startswith("I-7018"))
         refused = frozenset(section for section, it in AVAILABILITY.items() if not self.has(it.gates))
         derive(self, "refused", refused)

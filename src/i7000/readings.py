@@ -283,7 +283,7 @@ def decode_word(word: int, type_code: TypeCode) -> Reading:
         return Reading(None, type_code.unit, status)
     if not type_code.signed_hex:
         return Reading(_from_part(word, 0xFFFF, type_code), type_code.unit)
-    counts = _signed(word)
+    counts = signed(word)
     return Reading(counts * type_code.full_scale / (0x7FFF if counts >= 0 else 0x8000), type_code.unit)
 
 
@@ -330,7 +330,7 @@ def decode_engineering_word(word: int, type_code: TypeCode) -> Reading:
     status = _ENGINEERING_WORDS.get(word)
     if status is not None:
         return Reading(None, type_code.unit, status)
-    return Reading(_signed(word) / 10**type_code.modbus_decimals, type_code.unit)
+    return Reading(signed(word) / 10**type_code.modbus_decimals, type_code.unit)
 
 
 def encode_engineering_word(reading: Reading, type_code: TypeCode) -> int:
@@ -357,7 +357,7 @@ def _check_word(word: int) -> None:
         raise DecodeError(Fault.NUMBER, str(word).encode(), field="word", allowed="0..65535", section="A.5")
 
 
-def _signed(word: int) -> int:
+def signed(word: int) -> int:
     return word - ((word & 0x8000) << 1)
 
 

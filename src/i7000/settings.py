@@ -121,12 +121,13 @@ class CjcUpdate(IntEnum):
     ONCE = 2
 
 
-def _is_int(value: object, maximum: int) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= maximum
+def is_int(value: object, low: int, high: int) -> bool:
+    """Whether a value is an int in a range, and no truth value."""
+    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
 
 def _byte(name: str, value: int) -> int:
-    if not _is_int(value, _BYTE):
+    if not is_int(value, 0, _BYTE):
         raise EncodeError(name, value, "00..FF", "1.11")
     return value
 
@@ -143,7 +144,7 @@ class LineSettings:
     character_format: CharacterFormat = CharacterFormat.N81
 
     def __attrs_post_init__(self) -> None:
-        if not _is_int(self.baud_rate, 0x3F):
+        if not is_int(self.baud_rate, 0, 0x3F):
             raise EncodeError("baud_rate", self.baud_rate, "a code 00..3F; defined are 03..0A", "1.11")
         if not isinstance(self.character_format, CharacterFormat):
             raise EncodeError("character_format", self.character_format, "a CharacterFormat", "1.11")
@@ -180,9 +181,9 @@ class ReportSettings:
     """Three bits that should be zero."""
 
     def __attrs_post_init__(self) -> None:
-        if not _is_int(self.data_format, 3):
+        if not is_int(self.data_format, 0, 3):
             raise EncodeError("data_format", self.data_format, "a code 0..3; defined are 0..2", "1.11")
-        if not _is_int(self.reserved, 7):
+        if not is_int(self.reserved, 0, 7):
             raise EncodeError("reserved", self.reserved, "0..7; should be 0", "1.11")
         if not isinstance(self.filter, Filter):
             raise EncodeError("filter", self.filter, "a Filter", "1.11")

@@ -30,13 +30,13 @@ from i7000 import (
 )
 from i7000.message import Message
 from i7000.models import AVAILABILITY
+from i7000.profile import LAST_LEGACY
 from i7000.readings import decode_field
 
 __all__ = ["ChannelReading", "Known", "Meaning", "errata", "gates", "is_command", "meanings", "scope"]
 
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
-_LEGACY = Firmware("B1.4")
 
 
 @frozen
@@ -79,7 +79,7 @@ class Known:
         error = None
         for model, firmware, single_ended in product(
             (self.model,) if self.model else Model,
-            (self.firmware,) if self.firmware else (None, _LEGACY),
+            (self.firmware,) if self.firmware else (None, LAST_LEGACY),
             _either(self.single_ended),
         ):
             try:

@@ -13,14 +13,13 @@ from attrs import evolve, frozen
 from i7000 import DecodeError, EncodeError, Fault, ModbusDataFormat, Model, Profile, Protocol, modbus
 from i7000.cli.dcon import Known
 from i7000.cli.words import UsageError
+from i7000.modbus.request import EXCEPTION_BIT, LAST_ADDRESS
 
 __all__ = ["MODELS", "Heard", "Listener", "Meaning", "profiles"]
 
 MODELS = tuple(model for model in Model if Protocol.MODBUS_RTU in model.protocols)
 """Those that speak Modbus."""
 
-_EXCEPTION_BIT = 0x80
-_LAST_ADDRESS = 247
 _ANOTHER = (Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION)
 """Faults that say that something else was asked for."""
 
@@ -176,11 +175,11 @@ def _alone(frame: bytes, fitting: tuple[Profile, ...]) -> Meaning:
     body = modbus.unseal(frame)
     function, sub_function = body[1], body[2:3]
     kind: type[modbus.Message] | None = None
-    if function & _EXCEPTION_BIT and len(body) == len("afe"):
+    if function & EXCEPTION_BIT and len(body) == len("afe"):
         kind = modbus.ExceptionResponse
     for request in modbus.REQUESTS:
         if function == request.function and request.sub_function in (None, *sub_function):
             kind = request.response
-    if kind is None or not 1 <= body[0] <= _LAST_ADDRESS:
+    if kind is None or not 1 <= body[0] <= LAST_ADDRESS:
         raise DecodeError(Fault.FUNCTION, frame)
     return _read(lambda profile: kind.layout.decode(body, profile), fitting, None)

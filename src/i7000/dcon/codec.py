@@ -73,7 +73,7 @@ from i7000.dcon.watchdog import (
 )
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.models import AVAILABILITY, Firmware, Model, series
-from i7000.profile import Profile
+from i7000.profile import LAST_LEGACY, Profile
 from i7000.readings import Reading, decode_field, decode_fields, encode_field
 from i7000.settings import DataFormat
 
@@ -267,7 +267,7 @@ def _profiles() -> tuple[Profile, ...]:
 @cache
 def _response_profiles() -> tuple[Profile, ...]:
     kinds = {(profile.channels, profile.mask_digits): profile for profile in _profiles()}
-    old = Profile(Model.I_7018, firmware=Firmware("B1.4"))
+    old = Profile(Model.I_7018, firmware=LAST_LEGACY)
     return tuple(
         evolve(profile, data_format=data_format) for profile, data_format in product((*kinds.values(), old), DataFormat)
     )

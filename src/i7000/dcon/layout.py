@@ -17,7 +17,7 @@ from i7000.dcon.frame import LONGEST_FRAME
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.profile import Profile
 from i7000.readings import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
-from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings
+from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
 from i7000.type_codes import TypeCode
 
 # --- parts ------------------------------------------------------------------------------------------------------------
@@ -64,18 +64,14 @@ def _parse_hex(text: str) -> int:
     return int(text, 16)
 
 
-def _is_int(value: object, low: int, high: int) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
-
-
 def _byte(notation: str) -> Part:
     """Two hex digits."""
-    return Part(notation, "00..FF", "%02X", "{}", lambda value: _is_int(value, 0, 0xFF), _PAIRS.__getitem__)
+    return Part(notation, "00..FF", "%02X", "{}", lambda value: is_int(value, 0, 0xFF), _PAIRS.__getitem__)
 
 
 def _type_code(notation: str) -> Part:
     """Two hex digits that are a type code, or a number that is none."""
-    return Part(notation, "00..FF", "%02X", "{}", lambda value: _is_int(value, 0, 0xFF), _TYPE_CODES.__getitem__)
+    return Part(notation, "00..FF", "%02X", "{}", lambda value: is_int(value, 0, 0xFF), _TYPE_CODES.__getitem__)
 
 
 def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings]) -> Part:
@@ -100,7 +96,7 @@ def _channel(notation: str) -> Part:
     """A channel number: one digit, or two in single-ended mode (E21, E22)."""
     return Part(
         notation, "0..F, or 00..FF in single-ended mode", "%0*X", "p.channel_digits, {}",
-        lambda value: _is_int(value, 0, 0xFF), _parse_hex, width="channel_digits",
+        lambda value: is_int(value, 0, 0xFF), _parse_hex, width="channel_digits",
     )  # fmt: skip
 
 
@@ -108,7 +104,7 @@ def _mask(notation: str) -> Part:
     """A bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
     return Part(
         notation, "2, 4 or 6 hex digits", "%0*X", "p.mask_digits, {}",
-        lambda value: _is_int(value, 0, 0xFFFFFF), _parse_hex, width="mask_digits",
+        lambda value: is_int(value, 0, 0xFFFFFF), _parse_hex, width="mask_digits",
     )  # fmt: skip
 
 
@@ -122,7 +118,7 @@ def _offset(notation: str) -> Part:
 
     return Part(
         notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
-        lambda value: _is_int(value, -0xFFFF, 0xFFFF), parse, width=5, characters="+-" + _DIGITS,
+        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, characters="+-" + _DIGITS,
     )  # fmt: skip
 
 

@@ -119,7 +119,6 @@ def cold_junction(state: State, signals: Signals) -> float:
 # --- how they are told ------------------------------------------------------------------------------------------------
 
 _OUT_OF_RANGE = (Status.OVER_RANGE, Status.UNDER_RANGE)
-_LEGACY_TEXTS = {Status.OVER_RANGE: "+9999", Status.UNDER_RANGE: "-0000"}
 
 
 def faults(state: State, signals: Signals, channels: int) -> tuple[bool, ...]:
@@ -149,18 +148,16 @@ def _fields(eeprom: Eeprom, junction: float, signals: Signals, data_format: Data
     told = list(zip(profile.type_codes, _readings(eeprom, junction, signals), strict=False))
     if eeprom.model not in _7019_SERIES:
         told = [(code, _zero_if_disabled(reading, code)) for code, reading in told]
-    legacy = _LEGACY_TEXTS if profile.legacy_sentinels else {}
-    return tuple([legacy.get(reading.status) or _field(reading, code, data_format) for code, reading in told])
+    legacy = profile.legacy_sentinels
+    return tuple([_field(reading, code, data_format, legacy=legacy) for code, reading in told])
 
 
-def _field(value: Reading, type_code: TypeCode, data_format: DataFormat) -> str:
-    """Write a reading; what is nearest to 0 from below has a plus."""
+def _field(value: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool) -> str:
+    """Write a reading, or the end of the span that is nearest to what the format cannot say."""
     try:
-        text = encode_field(value, type_code, data_format)
+        return encode_field(value, type_code, data_format, legacy=legacy)
     except EncodeError:
         return encode_field(_clamped(value, type_code), type_code, data_format)
-    is_minus_zero = text[0] == "-" and not text.strip("-0.")
-    return encode_field(Reading(0.0, value.unit), type_code, data_format) if is_minus_zero else text
 
 
 def words(state: State, signals: Signals) -> tuple[int, ...]:

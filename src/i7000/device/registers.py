@@ -99,7 +99,7 @@ def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, 
     words: dict[str, tuple[int, ...]] = {}
     for row, at in _places(context.state, area, asked, Access.WRITE):
         if row.name not in words:
-            if row.kind is Kind.RECORD and (at % _RECORD_WORDS or len(asked) % _RECORD_WORDS):
+            if row.kind is Kind.RECORD and (at % Kind.RECORD.width or len(asked) % Kind.RECORD.width):
                 raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
             words[row.name] = _words_of(row, context)
         found.append(words[row.name][at])
@@ -134,15 +134,12 @@ def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
     return int(letter, 36), int(major), int(minor)
 
 
-_RECORD_WORDS = 18
-
-
 def _records(context: Context) -> list[int]:
     """Tell the records from the read index on; where there is none, zeros (assumption)."""
     words: list[int] = []
     for record in context.eeprom.log.window():
         if record is None:
-            words += (0,) * _RECORD_WORDS
+            words += (0,) * Kind.RECORD.width
         else:
             time = (record.time & 0xFFFF, record.time >> 16)
             words += record.words + (time[::-1] if context.eeprom.big_endian else time)

@@ -36,6 +36,7 @@ from i7000.modbus.module_settings import (
 from i7000.modbus.request import (
     BROADCAST,
     EXCEPTION_BIT,
+    LAST_ADDRESS,
     MODULE_SETTINGS,
     ExceptionResponse,
     Message,
@@ -133,7 +134,7 @@ def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
     """
     body = unseal(frame)
     function = body[1]
-    if body[0] > _LAST_ADDRESS:
+    if body[0] > LAST_ADDRESS:
         raise _address_error(frame)
     if function == MODULE_SETTINGS:
         if len(body) < len("afs"):
@@ -184,7 +185,6 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
     return response
 
 
-_LAST_ADDRESS = 247
 _SHORTEST_RESPONSE = 3
 """Bytes of address and PDU: an exception."""
 

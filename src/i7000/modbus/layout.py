@@ -25,7 +25,8 @@ from attrs import fields, frozen
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus.frame import WordStructs
 from i7000.profile import Profile
-from i7000.settings import CjcUpdate, LineSettings, Protocol
+from i7000.readings import signed
+from i7000.settings import CjcUpdate, LineSettings, Protocol, is_int
 from i7000.type_codes import TypeCode
 
 # --- fields -----------------------------------------------------------------------------------------------------------
@@ -49,12 +50,8 @@ class Item:
     """The range of a plain number: what is looked at before `accepts` is asked, which takes other kinds of int too."""
 
 
-def _is_int(value: object, low: int, high: int) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
-
-
 def _number(low: int, high: int, fault: Fault = Fault.VALUE) -> Item:
-    return Item(f"{low}..{high}", lambda value: _is_int(value, low, high), fault=fault, bounds=(low, high))
+    return Item(f"{low}..{high}", lambda value: is_int(value, low, high), fault=fault, bounds=(low, high))
 
 
 def _choice(kind: Any) -> Item:  # noqa: ANN401 - bool or an enumeration of codes
@@ -70,15 +67,11 @@ def _sequence(kind: type, most: int, accepts: Callable[[Any], bool]) -> Item:
 
 
 def _words(most: int) -> Item:
-    return _sequence(int, most, lambda value: _is_int(value, 0, 0xFFFF))
+    return _sequence(int, most, lambda value: is_int(value, 0, 0xFFFF))
 
 
 def _bits(most: int) -> Item:
     return _sequence(bool, most, lambda value: isinstance(value, bool))
-
-
-def _signed(word: int) -> int:
-    return word - ((word & 0x8000) << 1)
 
 
 MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 123
@@ -87,7 +80,7 @@ MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 
 Address = Annotated[int, _number(0, 247)]
 Byte = Annotated[int, _number(0, 0xFF)]
 Word = Annotated[int, _number(0, 0xFFFF)]
-SignedWord = Annotated[int, Item("-32768..32767", lambda it: _is_int(it, -0x8000, 0x7FFF), "{} & 0xFFFF", _signed)]
+SignedWord = Annotated[int, Item("-32768..32767", lambda it: is_int(it, -0x8000, 0x7FFF), "{} & 0xFFFF", signed)]
 BitCount = Annotated[int, _number(1, MOST_BITS, Fault.RANGE)]
 WordCount = Annotated[int, _number(1, MOST_WORDS, Fault.RANGE)]
 WrittenBitCount = Annotated[int, _number(1, MOST_WRITTEN_BITS, Fault.RANGE)]
@@ -101,12 +94,12 @@ Coil = Annotated[bool, Item("True False", lambda it: isinstance(it, bool), "0xFF
 Flag = Annotated[bool, _choice(bool)]
 ProtocolByte = Annotated[Protocol, _choice(Protocol)]
 UpdateByte = Annotated[CjcUpdate, _choice(CjcUpdate)]
-TypeCodeByte = Annotated[TypeCode | int, Item("0..255", lambda it: _is_int(it, 0, 0xFF), read=TypeCode.of)]
+TypeCodeByte = Annotated[TypeCode | int, Item("0..255", lambda it: is_int(it, 0, 0xFF), read=TypeCode.of)]
 LineByte = Annotated[
     LineSettings, Item("a LineSettings", lambda it: isinstance(it, LineSettings), "{}.byte", LineSettings.from_byte)
 ]
 ExceptionFunction = Annotated[
-    int, Item("1..127", lambda it: _is_int(it, 1, 0x7F), "{} | 0x80", lambda number: number & 0x7F)
+    int, Item("1..127", lambda it: is_int(it, 1, 0x7F), "{} | 0x80", lambda number: number & 0x7F)
 ]
 Mask = Annotated[int, _number(0, 0xFFFFFF)]
 Name = Annotated[bytes, Item("4 bytes", lambda it: isinstance(it, bytes) and len(it) == 4)]

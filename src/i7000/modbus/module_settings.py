@@ -7,7 +7,7 @@ from attrs import frozen
 
 from i7000.errors import EncodeError
 from i7000.modbus import layout
-from i7000.modbus.request import Request, Response, SettingResult
+from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
 from i7000.profile import Profile
 from i7000.settings import BaudRate, CharacterFormat, LineSettings
 
@@ -23,8 +23,6 @@ __all__ = [
     "SetCommunicationSettings",
     "SetModuleAddress",
 ]
-
-_LAST_ADDRESS = 247
 
 
 def check_line(line: LineSettings, profile: Profile, section: str) -> None:
@@ -95,8 +93,8 @@ class SetModuleAddress(Request[ModuleAddressResult]):
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
         """Refuse an address that no module has."""
-        if not 1 <= self.new_address <= _LAST_ADDRESS:
-            raise EncodeError("new_address", self.new_address, f"1..{_LAST_ADDRESS}", self.section)
+        if not 1 <= self.new_address <= LAST_ADDRESS:
+            raise EncodeError("new_address", self.new_address, f"1..{LAST_ADDRESS}", self.section)
 
 
 @frozen

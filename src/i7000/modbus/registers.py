@@ -9,6 +9,7 @@ from enum import Enum
 
 from attrs import evolve, frozen
 
+from i7000.modbus.cold_junction import OFFSET_LIMIT
 from i7000.models import CONFIGURABLE, Gates, Model, gates, series
 from i7000.profile import Profile
 from i7000.settings import Protocol
@@ -50,7 +51,7 @@ class Kind(Enum):
     @property
     def width(self) -> int:
         """Items that one value takes."""
-        return {Kind.UINT32: 2, Kind.RECORD: _RECORD_WORDS}.get(self, 1)
+        return {Kind.UINT32: 2, Kind.RECORD: 18}.get(self, 1)
 
 
 class Access(Enum):
@@ -92,11 +93,10 @@ class Register:
         return f"{self.area.value}{self.address + self.count:04d}"
 
 
-OFFSET_LIMIT = 0x1000
 OPEN_WIRE: Gates = gates(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
 """Open wire detection by Modbus; M-7018R has it from an older firmware on by DCON (E68)."""
 _LAST_TYPE_CODE = 0x1C
-_RECORD_WORDS, _RECORDS = 18, 6
+_RECORDS = 6
 
 
 def rows(profile: Profile) -> tuple[Register, ...]:
@@ -137,7 +137,7 @@ def _inputs(profile: Profile) -> Iterator[Register]:
     if model.cjc:
         yield Register("cjc_temperature", words, 128, 1, read, Kind.INT16, "degC", 0.01)
     if model is Model.M_7017mC_16:
-        yield Register("log_records", words, 1000, _RECORD_WORDS * _RECORDS, read, Kind.RECORD)
+        yield Register("log_records", words, 1000, Kind.RECORD.width * _RECORDS, read, Kind.RECORD)
 
 
 def _channels(profile: Profile) -> Iterator[Register]:

@@ -19,6 +19,8 @@ BROADCAST = 0
 MODULE_SETTINGS = 0x46
 """The function that has sub-functions."""
 EXCEPTION_BIT = 0x80
+LAST_ADDRESS = 247
+"""The last address that a module can have."""
 
 
 class ExceptionCode(IntEnum):

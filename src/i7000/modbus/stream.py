@@ -16,16 +16,15 @@ from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
 from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16
 from i7000.modbus.layout import Layout
-from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, MODULE_SETTINGS, Request
+from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, LAST_ADDRESS, MODULE_SETTINGS, Request
 from i7000.profile import Profile
 
 __all__ = ["Side", "drop_echo", "flush", "split"]
 
 _CRC = 2
-_LAST_ADDRESS = 247
 _EXCEPTION_LENGTH = 5
 _MASK_BYTES = (1, 2, 3)
-_MODULES = range(1, _LAST_ADDRESS + 1)
+_MODULES = range(1, LAST_ADDRESS + 1)
 
 
 class Side(StrEnum):
@@ -138,7 +137,7 @@ def split(
     Manual: 3; E61.
     """
     size = len(buffer)
-    if request is None and size and 0 < buffer[0] <= _LAST_ADDRESS:
+    if request is None and size and 0 < buffer[0] <= LAST_ADDRESS:
         function = buffer[1] if size > 1 else _MISSING
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
@@ -172,7 +171,7 @@ def _scan(  # noqa: C901, PLR0912 - one loop
     buffer: bytes, side: Side, profile: Profile | None, request: Request[Any] | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
     rules = None  # They are asked for where the first three bytes do not tell enough.
-    addresses = range(side is Side.RESPONSES, _LAST_ADDRESS + 1)
+    addresses = range(side is Side.RESPONSES, LAST_ADDRESS + 1)
     if request is not None:
         addresses = range(request.address, request.address + 1)
     by_start = _BY_START[side] if request is None else None
@@ -225,7 +224,7 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
 
 
 def _is_whole(frame: bytes) -> bool:
-    return SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME and frame[0] <= _LAST_ADDRESS and not crc16(frame)
+    return SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME and frame[0] <= LAST_ADDRESS and not crc16(frame)
 
 
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)

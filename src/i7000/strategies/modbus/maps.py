@@ -27,7 +27,6 @@ _CHOICES: Mapping[str, type[Enum] | tuple[int, ...]] = {
     "host_watchdog_timed_out": (True,),
 }
 """What can be written to rows of few values; the last two can only be cleared."""
-_RECORD_WORDS = 18
 _HIGHEST = {Kind.UINT32: 0xFFFFFFFF, Kind.INT16: 0x7FFF}
 
 
@@ -81,7 +80,7 @@ def register_values(row: Register, profile: Profile) -> SearchStrategy[Any]:
         return st.tuples(*[word_readings(code, profile.modbus_data_format) for code in profile.type_codes[:count]])
     if row.kind is Kind.RECORD:
         readings = st.tuples(*[word_readings(code, profile.modbus_data_format) for code in profile.type_codes])
-        return st.tuples(*[st.builds(LogRecord, readings, st.integers(0, 0xFFFFFFFF))] * (count // _RECORD_WORDS))
+        return st.tuples(*[st.builds(LogRecord, readings, st.integers(0, 0xFFFFFFFF))] * (count // Kind.RECORD.width))
     single = _single(row, profile)
     return single if row.count == 1 or row.kind is Kind.UINT32 else st.tuples(*[single] * count)
 
