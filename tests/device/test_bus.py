@@ -2,8 +2,9 @@
 
 import pytest
 
-from i7000 import Model, Protocol, dcon, modbus
-from i7000.device import Bus, Signals
+from i7000 import BaudRate, Fault, LineSettings, Model, Noise, Profile, Protocol, dcon, modbus
+from i7000.device import Bus, Ear, Heard, Signals, Uart
+from i7000.device.uart import hear_at
 from tests.device.driver import bench
 
 
@@ -63,3 +64,135 @@ def test_every_module_has_its_signals() -> None:
 
     with pytest.raises(ValueError, match="zip"):
         line.step(dcon.seal(b"#01", checksum=False), [], 0.0)
+
+
+# --- what hosts send, in pieces ---------------------------------------------------------------------------------------
+
+RTU = modbus.encode(modbus.ReadModuleName(1))
+MASK = modbus.encode(modbus.SetChannelMask(1, 0x0F), Profile(Model.M_7017))
+
+
+def hear_all(line: Bus, *pieces: bytes, ear: Ear | None = None) -> tuple[Bus, Ear, list[Heard]]:
+    ear = ear or Ear()
+    told: list[Heard] = []
+    for piece in pieces:
+        line, ear, heard = line.hear(ear, piece, [Signals()] * len(line.modules), 1000.0)
+        told += heard
+    return line, ear, told
+
+
+def silence(line: Bus, ear: Ear) -> tuple[Bus, Ear, tuple[Heard, ...]]:
+    return line.silence(ear, [Signals()] * len(line.modules), 1000.0)
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 100])
+def test_frames_are_heard_in_whatever_pieces_they_come(size: int) -> None:
+    stream = b"$01M\r" + RTU + b"$02M\r" + b"\xff\xfe" + RTU
+
+    _, ear, told = hear_all(bus(**MIXED), *(stream[at : at + size] for at in range(0, len(stream), size)))
+
+    answers = sorted(heard.answer for heard in told if heard.answer)
+    name = modbus.encode(modbus.ModuleName(1, b"\0\x70\x17\0"))
+    assert [name, name, b"!017018\r", b"!027019R\r"] == answers
+    assert not ear.waiting
+
+
+def test_what_was_heard_tells_who_was_asked_and_how_it_is_read() -> None:
+    line, ear, told = hear_all(bus(**MIXED), b"$02M\r", b"$09M\r")
+    line, ear, _ = silence(line, ear)
+
+    _, _, others = hear_all(line, RTU, ear=ear)
+
+    told += others
+    assert [(heard.module, heard.profile and heard.profile.model) for heard in told] == [
+        (1, Model.M_7019R),
+        (None, None),
+        (2, Model.M_7017),
+    ]
+    assert [heard.protocol for heard in told] == [Protocol.DCON, Protocol.DCON, Protocol.MODBUS_RTU]
+
+
+def test_noise_is_told_unless_it_is_a_frame_to_others() -> None:
+    _, _, told = hear_all(bus(A01=Model.I_7018), b"\xff\r", RTU + b"\r")
+
+    assert [heard.frame.wire for heard in told if isinstance(heard.frame, Noise)] == [b"\xff\r", RTU + b"\r"]
+
+
+def test_what_is_longer_than_a_frame_is_noise_before_silence_tells() -> None:
+    _, ear, told = hear_all(bus(M01=Model.M_7017), b"\xff" * 256, b"\xff")
+
+    assert [heard.frame for heard in told] == [Noise(b"\xff" * 257, Fault.ADDRESS)]
+    assert not ear.waiting
+
+
+def test_a_setting_that_one_frame_makes_holds_for_the_next_in_the_same_piece() -> None:
+    _, _, told = hear_all(bus(A01=Model.I_7018), b"%0102050600\r$02M\r$01M\r")
+
+    assert [heard.answer for heard in told] == [b"!02\r", b"!027018\r", None]
+
+
+def test_silence_ends_a_frame_that_could_be_longer() -> None:
+    line, ear, told = hear_all(bus(M01=Model.M_7017), MASK)
+    assert told == []
+    assert ear.waiting
+
+    line, ear, heard = silence(line, ear)
+
+    assert [it.frame for it in heard] == [MASK]
+    assert line.modules[0].eeprom.channel_mask == 0x0F
+    assert Ear() == ear
+
+
+def test_silence_does_not_end_a_frame_of_dcon() -> None:
+    line, ear, told = hear_all(bus(**MIXED), b"$01")
+    line, ear, _ = silence(line, ear)
+
+    _, _, told = hear_all(line, b"M\r", ear=ear)
+
+    assert [heard.answer for heard in told] == [b"!017018\r"]
+
+
+def test_an_unknown_function_is_a_frame_when_silence_follows() -> None:
+    line, ear, _ = hear_all(bus(M01=Model.M_7017), modbus.seal(b"\x01\x63\x00"))
+
+    _, _, heard = silence(line, ear)
+
+    assert [modbus.seal(b"\x01\xe3\x01")] == [it.answer for it in heard]
+
+
+def test_the_response_delay_is_told() -> None:
+    line, _, _ = hear_all(bus(M01=Model.M_7017), modbus.encode(modbus.WriteSingleRegister(1, 487, 30)))
+
+    _, _, told = hear_all(line, RTU)
+
+    assert [heard.delay for heard in told] == [0.03]
+
+
+def test_a_module_hears_a_host_that_is_set_to_its_line_only() -> None:
+    slow, fast = (
+        bench(Model.I_7018, address=at, line_settings=LineSettings(rate)).state
+        for at, rate in ((1, BaudRate.BAUD_9600), (2, BaudRate.BAUD_19200))
+    )
+    asked = b"$01M\r$02M\r"
+
+    for uart, answers in (
+        (Uart(9600), [b"!017018\r"]),
+        (Uart(9600, stop_bits=2), [b"!017018\r"]),
+        (Uart(19200), [b"!027018\r"]),
+        (Uart(9600, parity="E"), []),
+        (Uart(300), []),
+        (None, [b"!017018\r", b"!027018\r"]),
+    ):
+        _, _, told = hear_all(Bus((slow, fast)), asked, ear=Ear(uart))
+
+        assert answers == [heard.answer for heard in told if heard.answer]
+
+
+def test_what_passes_a_wrong_parity_is_answered_in_a_parity_that_is_wrong_for_the_host() -> None:
+    """Every character of this request has an odd number of ones, as stop bits and even parity bits alike have it."""
+    module = bench(Model.I_7018, address=0x11).state
+
+    _, _, told = hear_all(Bus((module,)), b"#11\r", ear=Ear(Uart(9600, parity="E")))
+
+    answer = b">" + b"+0.0000" * 8 + b"\r"
+    assert [hear_at(answer, Uart(9600), Uart(9600, parity="E"))] == [heard.answer for heard in told]

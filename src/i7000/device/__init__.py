@@ -1,21 +1,24 @@
 """The executable model of a module, pure: a state, a frame, signals and the time give the next state and an answer.
 
-`factory` and `power_on` make a module, `step` lets it hear a frame, `advance` lets time pass; a `Bus` is several. A
-power cycle is ``power_on(state.eeprom, now=now)``. Where the manual is silent the docstrings say what is assumed, with
-the id of ``spec/errata.json`` where there is one.
+`factory` and `power_on` make a module, `step` lets it hear a frame, `advance` lets time pass; a `Bus` is several, which
+hear what hosts send in whatever pieces. A power cycle is ``power_on(state.eeprom, now=now)``. Where the manual is
+silent the docstrings say what is assumed, with the id of ``spec/errata.json`` where there is one.
 """
 
-from i7000.device.bus import Bus
+from i7000.device.bus import Bus, Ear, Heard
 from i7000.device.logger import CAPACITY, Log, LogCommand, Record
 from i7000.device.module import advance, step
 from i7000.device.signals import OPEN_WIRE, Signal, Signals
 from i7000.device.state import Eeprom, Ram, State, factory, power_on
+from i7000.device.uart import Uart
 
 __all__ = [
     "CAPACITY",
     "OPEN_WIRE",
     "Bus",
+    "Ear",
     "Eeprom",
+    "Heard",
     "Log",
     "LogCommand",
     "Ram",
@@ -23,6 +26,7 @@ __all__ = [
     "Signal",
     "Signals",
     "State",
+    "Uart",
     "advance",
     "factory",
     "power_on",

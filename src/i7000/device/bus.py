@@ -1,15 +1,64 @@
-"""Several modules on one pair of wires, of whatever models and protocols."""
+"""Several modules on one pair of wires, of whatever models and protocols; what hosts send, in whatever pieces.
+
+Laws: a frame is heard once it is whole, by every module whose protocol and line settings it is in; any chunking of what
+a host sends gives the same frames in the same order.
+"""
 
 from collections.abc import Sequence
 from itertools import zip_longest
+from typing import NamedTuple
 
-from attrs import frozen
+from attrs import evolve, field, frozen
 
+from i7000 import dcon, modbus
 from i7000.device.module import step
 from i7000.device.signals import Signals
 from i7000.device.state import State
+from i7000.device.uart import Uart, hear_at
+from i7000.errors import Noise
+from i7000.profile import Profile
+from i7000.settings import Protocol
 
-__all__ = ["Bus"]
+__all__ = ["Bus", "Ear", "Heard"]
+
+
+class Reception(NamedTuple):
+    """How some modules of a bus listen: their protocol, and their line settings if these are not the host's."""
+
+    protocol: Protocol
+    uart: Uart | None
+
+
+@frozen
+class Ear:
+    """What one host has sent and may still become a frame.
+
+    Shape: `uart` is how the host sends and hears; None: as each module does, which a network or a pseudo-terminal
+        cannot tell.
+    """
+
+    uart: Uart | None = None
+    rests: tuple[tuple[Reception, bytes], ...] = field(default=(), kw_only=True)
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there is something of which only silence can tell that it is whole."""
+        return any(reception.protocol is Protocol.MODBUS_RTU for reception, _ in self.rests)
+
+
+@frozen
+class Heard:
+    """A frame that modules heard, and what came of it; or bytes that are no frame to any of them."""
+
+    frame: bytes | Noise
+    protocol: Protocol
+    module: int | None = None
+    """The place on the bus of the one it is for; None: it is for all, or for none that is there."""
+    profile: Profile | None = None
+    """That of the module, as it was before."""
+    answer: bytes | None = None
+    delay: float = 0.0
+    """Seconds that the module waits before it answers (40488)."""
 
 
 @frozen
@@ -37,6 +86,94 @@ class Bus:
             if answer is not None:
                 answers.append(answer)
         return Bus(tuple(after)), _collided(answers)
+
+    def hear(
+        self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
+    ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
+        r"""Let all modules hear what a host sends, a whole frame or any piece of one, or several.
+
+        Special: what sounds to some modules like noise, while others hear a frame, is told as the frame only.
+
+        >>> from i7000 import Model
+        >>> from i7000.device import factory, power_on
+        >>> bus, ear = Bus((power_on(factory(Model.I_7018), now=0.0),)), Ear()
+        >>> bus, ear, heard = bus.hear(ear, b"$01", [Signals()], 0.0)
+        >>> bus.hear(ear, b"M\r", [Signals()], 0.0)[2][0].answer
+        b'!017018\r'
+        """
+        rests = dict(ear.rests)
+        found: list[tuple[Reception, bytes | Noise]] = []
+        left = []
+        for reception in dict.fromkeys(_reception(module, ear) for module in self.modules):
+            heard = data if ear.uart is None or reception.uart is None else hear_at(data, ear.uart, reception.uart)
+            parts, rest = _split(reception, rests.get(reception, b"") + heard)
+            found += [(reception, part) for part in parts]
+            if rest:
+                left.append((reception, rest))
+        return self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
+
+    def silence(self, ear: Ear, signals: Sequence[Signals], now: float) -> tuple["Bus", Ear, tuple[Heard, ...]]:
+        """Let all modules hear that a host sends nothing for 3.5 characters, which ends a frame of Modbus RTU.
+
+        Manual: 3.
+        """
+        found = [(reception, part) for reception, rest in ear.rests for part in _flush(reception, rest)]
+        left = tuple((reception, rest) for reception, rest in ear.rests if reception.protocol is Protocol.DCON)
+        return self._hear(evolve(ear, rests=left), found, signals, now)
+
+    def _hear(
+        self, ear: Ear, found: Sequence[tuple[Reception, bytes | Noise]], signals: Sequence[Signals], now: float
+    ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
+        bus, told = self, []
+        for reception, part in found:
+            if isinstance(part, Noise):
+                told.append(Heard(part, reception.protocol))
+            else:
+                bus, heard = bus._hear_frame(ear, reception, part, signals, now)
+                told.append(heard)
+        frames = tuple(heard for heard in told if not isinstance(heard.frame, Noise))
+        return bus, ear, frames or tuple(told)
+
+    def _hear_frame(
+        self, ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float
+    ) -> tuple["Bus", Heard]:
+        places = [place for place, module in enumerate(self.modules) if _reception(module, ear) == reception]
+        listening = Bus(tuple([self.modules[place] for place in places]))
+        listening, answer = listening.step(frame, [signals[place] for place in places], now)
+        after = list(self.modules)
+        for place, module in zip(places, listening.modules, strict=True):
+            after[place] = module
+        asked = next((place for place in places if _is_for(self.modules[place], frame)), None)
+        if asked is None:
+            return Bus(tuple(after)), Heard(frame, reception.protocol)
+        if answer is not None and ear.uart is not None and reception.uart is not None:
+            answer = hear_at(answer, reception.uart, ear.uart)
+        module = self.modules[asked]
+        return Bus(tuple(after)), Heard(frame, reception.protocol, asked, module.profile, answer, module.response_delay)
+
+
+def _reception(module: State, ear: Ear) -> Reception:
+    if ear.uart is None:
+        return Reception(module.ram.protocol, None)
+    own = Uart.of(module.ram.line_settings)
+    return Reception(module.ram.protocol, None if own.sounds_like(ear.uart) else own)
+
+
+def _is_for(module: State, frame: bytes) -> bool:
+    address = module.ram.address
+    return frame[0] == address if module.ram.protocol is Protocol.MODBUS_RTU else frame[1:3] == b"%02X" % address
+
+
+def _split(reception: Reception, heard: bytes) -> tuple[tuple[bytes | Noise, ...], bytes]:
+    if reception.protocol is Protocol.DCON:
+        return dcon.split(heard)
+    parts, rest = modbus.split(heard, modbus.Side.REQUESTS)
+    whole = len(heard) <= modbus.LONGEST_FRAME and all(isinstance(part, Noise) for part in parts)
+    return ((), heard) if whole else (parts, rest)  # It could be a request of an unknown function: silence will tell.
+
+
+def _flush(reception: Reception, rest: bytes) -> tuple[bytes | Noise, ...]:
+    return () if reception.protocol is Protocol.DCON else modbus.flush(rest, modbus.Side.REQUESTS)
 
 
 def _collided(answers: list[bytes]) -> bytes | None:
