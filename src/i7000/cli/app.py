@@ -267,6 +267,65 @@ def registers(
     return 0
 
 
+# --- simulate ---------------------------------------------------------------------------------------------------------
+
+
+@app.command
+def simulate(  # noqa: PLR0913 - each of them is an option
+    *,
+    model: Annotated[tuple[str, ...], Parameter(help="MODEL[@FIRMWARE][,name=value...]; once for each module.")] = (),
+    pty: Annotated[bool, Parameter(help="On a pseudo-terminal; so it is if nothing is said.", negative="")] = False,
+    tcp: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, the bytes as they are.")] = None,
+    rfc2217: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, by RFC 2217.")] = None,
+    signal: Annotated[tuple[str, ...], Parameter(help="[ADDRESS:]CHANNELS=SOURCE; what is on the inputs.")] = (),
+    fault: Annotated[tuple[str, ...], Parameter(help="What the line does: echo, lumps, drop=0.01 ...")] = (),
+    seed: Annotated[int, Parameter(help="Of faults and noise: the same one has the same.")] = 0,
+    eeprom: Annotated[Path | None, Parameter(help="A file for what the modules remember without power.")] = None,
+    view: Annotated[
+        Literal["live", "lines", "none"] | None,
+        Parameter(help="Show modules and traffic, or traffic line by line; live on a terminal if nothing is said."),
+    ] = None,
+) -> int:
+    """Simulate modules on a line, until Ctrl-C.
+
+    What is printed first is where a driver finds them: the path of a pseudo-terminal, `socket://127.0.0.1:5020`,
+    `rfc2217://127.0.0.1:5021`, as pyserial takes them. Without a host, only this machine gets there.
+
+    * Modules: `M-7019R@B3.7`, or with settings, `M-7019R,address=02,type=K/J/T/K/K/K/K/K,protocol=dcon,checksum=true`.
+      Unless given, all is as from the factory, but the n-th module has the address n. `init=true` powers it on with the
+      INIT switch set.
+    * Signals: `0=1.5V`, `all=25degC`, `02:0-3=sine:20:5:60`, `4=ramp:4mA:20mA:10`, `5=noise:100:0.5`, `6=open`,
+      `7=csv:FILE`, `cjc=31.5`; units are those of the types unless given, times seconds. Unless given, each channel has
+      another value within its range.
+    * Faults: `echo`, `lumps` (answers come every 16 ms), `drop=P`, `flip=P` (of a byte), `noise=P`, `late=P[:SECONDS]`
+      (of an answer), P being a probability.
+    * The file of `--eeprom` is made if it is not there; if it is, what it has stored is what the modules remember, and
+      `--model` may be left out.
+
+    Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
+
+    Exit code: 0; 2 for wrong usage, or a file that is damaged.
+    """
+    from i7000.cli import simulate as simulating  # noqa: PLC0415 - what it needs may not be there
+
+    printer = Printer()
+    places = [
+        simulating.read_place(scheme, text)
+        for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
+        if text is not None
+    ]
+    simulated = simulating.Simulation(
+        simulating.read_modules(model, signal, seed=seed, memory=eeprom),
+        simulating.read_faults(fault),
+        seed,
+        eeprom,
+        pty or not places,
+        tuple(places),
+        view or ("live" if printer.out.is_terminal else "none"),
+    )
+    return simulating.run(simulated, printer)
+
+
 # --- run --------------------------------------------------------------------------------------------------------------
 
 
@@ -277,6 +336,9 @@ def run(arguments: Sequence[str] | None) -> int:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (CycloptsError, UsageError, OSError) as error:
         Printer().error(error)
+        return 2
+    except ModuleNotFoundError as missing:
+        Printer().error(f'no module {missing.name}; this needs: pip install "i7000[simulator]"')
         return 2
     except KeyboardInterrupt:
         return 130

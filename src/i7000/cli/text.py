@@ -35,8 +35,12 @@ class Printer:
         if self.json:
             self.out.out(json.dumps(record), highlight=False)
         else:
-            for line in lines:
-                _print(self.out, line)
+            self.show(lines)
+
+    def show(self, lines: Iterable[Text]) -> None:
+        """Print lines for people."""
+        for line in lines:
+            _print(self.out, line)
 
     def error(self, message: object) -> None:
         """Say what is wrong."""

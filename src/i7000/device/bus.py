@@ -131,8 +131,8 @@ class Bus:
             else:
                 bus, heard = bus._hear_frame(ear, reception, part, signals, now)
                 told.append(heard)
-        frames = tuple(heard for heard in told if not isinstance(heard.frame, Noise))
-        return bus, ear, frames or tuple(told)
+        spoken = {heard.protocol for heard in told if not isinstance(heard.frame, Noise)}
+        return bus, ear, tuple([heard for heard in told if not spoken or heard.protocol in spoken])
 
     def _hear_frame(
         self, ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float

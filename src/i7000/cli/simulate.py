@@ -1,0 +1,195 @@
+"""``i7000 simulate``: modules that are not there, for drivers to be tried against.
+
+Laws: what some options need and others do not is imported when it is asked for.
+"""
+
+import asyncio
+import signal
+from collections.abc import Callable, Sequence
+from contextlib import AsyncExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from attrs import fields_dict, frozen
+
+from i7000.cli.simulated import read_module, read_signals
+from i7000.cli.text import Printer
+from i7000.cli.words import UsageError, near
+from i7000.device import Eeprom
+from i7000.errors import EncodeError, I7000Error
+from i7000.simulator.faults import Faults
+from i7000.simulator.observed import Observed
+from i7000.simulator.simulator import Simulated, Simulator
+from i7000.simulator.tcp import LOOPBACK, Connection, listen
+
+__all__ = ["Place", "Simulation", "read_faults", "read_modules", "read_place", "run"]
+
+
+@frozen
+class Place:
+    """Where on the network to wait for hosts."""
+
+    scheme: str
+    """``socket`` or ``rfc2217``, as in the URLs of pyserial."""
+    host: str
+    port: int
+
+
+@frozen
+class Simulation:
+    """All that is to be simulated, and how to get at it."""
+
+    modules: tuple[Simulated, ...]
+    faults: Faults
+    seed: int
+    memory: Path | None
+    pty: bool
+    places: tuple[Place, ...]
+    view: str
+
+
+def read_modules(
+    texts: Sequence[str], signals: Sequence[str], *, seed: int, memory: Path | None
+) -> tuple[Simulated, ...]:
+    """Tell what modules there are to be, and what is on their inputs.
+
+    Special: what a file has stored is what its modules remember; else what `texts` say is.
+    Errors: `UsageError`, also for a file that is damaged; `OSError`.
+    """
+    described = [read_module(text, address) for address, text in enumerate(texts, 1)]
+    eeproms = tuple(eeprom for eeprom, _ in described)
+    switches = tuple(switch for _, switch in described)
+    if memory is not None and memory.exists():
+        from i7000.simulator.memory import load  # noqa: PLC0415
+
+        try:
+            stored = load(memory)
+        except I7000Error as error:
+            raise UsageError(error) from None
+        if described and list(map(_kind, stored)) != list(map(_kind, eeproms)):
+            raise UsageError(f"{memory} holds {_kinds(stored)}, not {_kinds(eeproms)}")
+        eeproms, switches = stored, switches or (False,) * len(stored)
+    if not eeproms:
+        raise UsageError("no modules: give --model, once for each")
+    return tuple(map(Simulated, eeproms, read_signals(signals, eeproms, seed), switches))
+
+
+def _kind(eeprom: Eeprom) -> str:
+    return f"{eeprom.model.value}@{eeprom.firmware}"
+
+
+def _kinds(eeproms: Sequence[Eeprom]) -> str:
+    return " ".join(map(_kind, eeproms))
+
+
+def read_place(scheme: str, text: str) -> Place:
+    """Read ``[HOST:]PORT``; the host is this machine alone if nothing else is said.
+
+    Errors: `UsageError`.
+
+    >>> read_place("socket", "5020"), read_place("rfc2217", "[::1]:0").host
+    (Place(scheme='socket', host='127.0.0.1', port=5020), '::1')
+    """
+    host, _, port = text.rpartition(":")
+    if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
+        raise UsageError(f"{text!r} is no [HOST:]PORT: a port is 0..65535, 0 any that is free")
+    return Place(scheme, host.strip("[]") or LOOPBACK, int(port))
+
+
+def read_faults(texts: Sequence[str]) -> Faults:
+    """Read ``echo``, ``lumps``, ``drop=0.01``, ``flip=0.01``, ``noise=0.1``, ``late=0.1`` or ``late=0.1:0.25``.
+
+    Errors: `UsageError`.
+
+    >>> read_faults(["echo", "late=0.1:0.25"])
+    Faults(echo=True, lumps=False, drop=0.0, flip=0.0, noise=0.0, late=0.1, late_by=0.25)
+    """
+    found: dict[str, Any] = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        kinds = {kind: type(getattr(Faults(), kind)) for kind in fields_dict(Faults) if kind != "late_by"}
+        if name not in kinds:
+            raise UsageError(f"there is no fault {name!r}: {', '.join(kinds)}{near(name, list(kinds))}")
+        if kinds[name] is bool:
+            if equals:
+                raise UsageError(f"--fault {name} has no value")
+            found[name] = True
+            continue
+        probability, colon, late_by = value.partition(":")
+        if colon and name != "late":
+            raise UsageError(f"--fault {text}: only late has a time")
+        try:
+            found[name] = float(probability)
+            if colon:
+                found["late_by"] = float(late_by)
+            Faults(**found)
+        except ValueError as error:
+            reason = error if isinstance(error, EncodeError) else f"give a probability: --fault {name}=0.01"
+            raise UsageError(f"--fault {text}: {reason}") from None
+    return Faults(**found)
+
+
+def run(simulated: Simulation, printer: Printer) -> int:
+    """Simulate until Ctrl-C, or until somebody ends it; where hosts find it is the first that is printed.
+
+    Errors: `OSError` if there is no such place, or if the memory cannot be written.
+    """
+    return asyncio.run(_run(simulated, printer))
+
+
+async def _run(simulated: Simulation, printer: Printer) -> int:
+    simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed)
+    if simulated.memory is not None:
+        from i7000.simulator.memory import save  # noqa: PLC0415
+
+        simulator.store = partial(save, simulated.memory)
+        simulator.store([module.eeprom for module in simulated.modules])
+    async with AsyncExitStack() as opened:
+        for place in await _open(simulated, simulator, opened):
+            printer.out.out(place, highlight=False)
+            printer.out.file.flush()
+        _end_at_signals(simulator)
+        simulator.observe = _observer(simulated.view, printer, simulator, opened)
+        await simulator.run()
+    return 0
+
+
+async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitStack) -> list[str]:
+    """Open all places where hosts are to find the bus, and tell them."""
+    found = []
+    if simulated.pty:
+        from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
+
+        found.append(await opened.enter_async_context(open_pty(simulator)))
+    for place in simulated.places:
+        connection = Connection
+        if place.scheme == "rfc2217":
+            from i7000.simulator.rfc2217 import Rfc2217Connection  # noqa: PLC0415
+
+            connection = Rfc2217Connection
+        listening = listen(simulator, place.host, place.port, connection=connection)
+        found.append(f"{place.scheme}://{await opened.enter_async_context(listening)}")
+    return found
+
+
+def _end_at_signals(simulator: Simulator) -> None:
+    def end() -> None:
+        if not simulator.ended.done():
+            simulator.ended.set_result(None)
+
+    for name in (signal.SIGINT, signal.SIGTERM):
+        asyncio.get_running_loop().add_signal_handler(name, end)
+
+
+def _observer(
+    kind: str, printer: Printer, simulator: Simulator, opened: AsyncExitStack
+) -> Callable[[Observed], None] | None:
+    """Show what goes on, in the manner that was asked for."""
+    if kind == "none":
+        return None
+    from i7000.simulator.view import View, lines  # noqa: PLC0415
+
+    if kind == "lines":
+        return lambda observed: printer.show(lines(observed))
+    return opened.enter_context(View(simulator.modules, printer.out)).observe

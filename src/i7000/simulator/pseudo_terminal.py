@@ -1,0 +1,47 @@
+"""A pseudo-terminal that leads to a simulated bus (POSIX).
+
+Laws: a host that does not read loses what it is sent, as on a line; nothing waits for it.
+"""
+
+import asyncio
+import os
+import pty
+import tty
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
+
+from i7000.simulator.simulator import Host, Simulator
+
+__all__ = ["open_pty"]
+
+_AT_ONCE = 4096
+
+
+@asynccontextmanager
+async def open_pty(simulator: Simulator) -> AsyncIterator[str]:
+    """Open a pseudo-terminal that leads to the bus; the value is its path.
+
+    Special: it keeps neither baud rate nor parity, so all modules hear whoever opens it.
+    """
+    end, near = pty.openpty()
+    try:
+        for descriptor in (end, near):
+            tty.setraw(descriptor)
+        os.set_blocking(end, False)
+        path = os.ttyname(near)
+
+        def write(data: bytes) -> None:
+            with suppress(BlockingIOError):
+                os.write(end, data)
+
+        host = Host(simulator, path, write)
+        loop = asyncio.get_running_loop()
+        loop.add_reader(end, lambda: host.receive(os.read(end, _AT_ONCE)))
+        try:
+            yield path
+        finally:
+            loop.remove_reader(end)
+            host.close()
+    finally:
+        os.close(end)
+        os.close(near)  # It was kept open: without it, reading fails once a host has closed its own.

@@ -1,0 +1,317 @@
+"""A simulated bus and its hosts: on pseudo-terminals, TCP and RFC 2217."""
+
+import errno
+import os
+import socket
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from time import monotonic, sleep
+
+import pytest
+import serial
+from attrs import evolve
+
+from i7000 import BaudRate, LineSettings, Model, Noise, Profile, Protocol, Unit, dcon, modbus
+from i7000.device import Eeprom, Signal
+from i7000.simulator.faults import Faults
+from i7000.simulator.pseudo_terminal import open_pty
+from i7000.simulator.rfc2217 import Rfc2217Connection
+from i7000.simulator.simulator import Simulator
+from i7000.simulator.sources import Fixed, Sources
+from i7000.simulator.tcp import listen
+from tests.simulator.running import Running, module, running
+
+VOLTS = Sources(tuple(Fixed(Signal(value, Unit.VOLT)) for value in (1.5, -1.0, 0.25, 0, 0, 0, 0, 0)))
+SAID = b">+1.5000-1.0000+0.2500" + b"+0.0000" * 5 + b"\r"
+I_7018 = module(Model.I_7018, sources=VOLTS)
+RFC_2217 = partial(listen, connection=Rfc2217Connection)
+TRANSPORTS = {"pty": open_pty, "socket": listen, "rfc2217": RFC_2217}
+
+
+@contextmanager
+def port(here: Running, scheme: str, **settings: object) -> Iterator[serial.SerialBase]:
+    """What a host opens."""
+    url = here.place if scheme == "pty" else f"{scheme}://{here.place}"
+    with serial.serial_for_url(url, timeout=2, **settings) as opened:
+        yield opened
+
+
+def ask(opened: serial.SerialBase, request: bytes, length: int) -> bytes:
+    opened.write(request)
+    return bytes(opened.read(length))
+
+
+every_transport = pytest.mark.parametrize("scheme", TRANSPORTS)
+
+
+@every_transport
+def test_a_host_reads_what_is_on_the_inputs(scheme: str) -> None:
+    with running(TRANSPORTS[scheme], I_7018) as here, port(here, scheme) as opened:
+        assert ask(opened, b"#01\r", len(SAID)) == SAID
+        assert ask(opened, b"$01M\r", 8) == b"!017018\r"
+
+
+@every_transport
+def test_bytes_of_all_values_pass(scheme: str) -> None:
+    channels = Sources(tuple(Fixed(Signal(value, Unit.VOLT)) for value in (2.5, -2.5, -0.0001, 0.98, 1, 1, 1, 1)))
+    spoken = module(Model.M_7018, sources=channels, protocol=Protocol.MODBUS_RTU)
+    request = modbus.encode(modbus.ReadInputRegisters(1, 0, 4))
+
+    with running(TRANSPORTS[scheme], spoken) as here, port(here, scheme) as opened:
+        answer = ask(opened, request, 13)
+
+    assert modbus.unseal(answer) == b"\x01\x04\x08\x7f\xff\x80\x00\xff\xff\x32\x2d"
+
+
+@every_transport
+def test_what_hosts_send_in_pieces_is_heard_whole(scheme: str) -> None:
+    with running(TRANSPORTS[scheme], I_7018) as here, port(here, scheme) as opened:
+        for byte in b"$01M":
+            opened.write(bytes((byte,)))
+            sleep(0.03)
+
+        assert ask(opened, b"\r", 8) == b"!017018\r"
+
+
+@pytest.mark.parametrize("scheme", ["socket", "rfc2217"])
+def test_hosts_share_modules_and_not_what_they_have_half_sent(scheme: str) -> None:
+    with (
+        running(TRANSPORTS[scheme], I_7018) as here,
+        port(here, scheme) as one,
+        port(here, scheme) as other,
+    ):
+        one.write(b"$0")
+
+        assert ask(other, b"~01OABC\r", 4) == b"!01\r"
+        assert ask(one, b"1M\r", 7) == b"!01ABC\r"
+        assert other.in_waiting == 0
+
+
+def test_a_frame_that_could_be_longer_is_heard_when_the_line_is_silent() -> None:
+    spoken = module(Model.M_7017, protocol=Protocol.MODBUS_RTU)
+    request = modbus.SetChannelMask(1, 0x0F)
+
+    with running(listen, spoken) as here, port(here, "socket") as opened:
+        answer = ask(opened, modbus.encode(request, Profile(Model.M_7017)), 6)
+        opened.write(b"\x01")
+        sleep(0.1)
+        observed = list(here.observed)
+
+    assert modbus.encode(modbus.ChannelMaskResult(1, 0)) == answer
+    assert [Noise] == [type(it.heard) for it in observed[1:]]
+
+
+def test_the_response_delay_is_waited_for() -> None:
+    spoken = module(Model.M_7017, protocol=Protocol.MODBUS_RTU, response_delay=30)
+    request = modbus.encode(modbus.ReadModuleName(1))
+
+    with running(listen, spoken) as here, port(here, "socket") as opened:
+        began = monotonic()
+        answer = ask(opened, request, 9)
+
+    assert monotonic() - began > 0.029
+    assert len(answer) == 9
+
+
+def test_a_host_that_is_gone_gets_no_answer() -> None:
+    spoken = module(Model.M_7017, protocol=Protocol.MODBUS_RTU, response_delay=30)
+
+    with running(listen, spoken) as here:
+        with port(here, "socket") as opened:
+            opened.write(modbus.encode(modbus.ReadModuleName(1)))
+            while not here.observed:
+                sleep(0.001)
+        sleep(0.05)
+
+        with port(here, "socket") as opened:
+            assert len(ask(opened, modbus.encode(modbus.ReadModuleName(1)), 9)) == 9
+
+
+# --- faults -----------------------------------------------------------------------------------------------------------
+
+
+def test_an_echo_comes_before_the_answer() -> None:
+    with running(listen, I_7018, faults=Faults(echo=True)) as here, port(here, "socket") as opened:
+        assert ask(opened, b"$01M\r", 13) == b"$01M\r!017018\r"
+
+
+def test_lumps_come_one_after_the_other() -> None:
+    with running(listen, I_7018, faults=Faults(lumps=True)) as here, port(here, "socket") as opened:
+        began = monotonic()
+        answer = ask(opened, b"#01\r", len(SAID))
+
+    assert answer == SAID
+    assert monotonic() - began > 0.06
+
+
+def test_a_late_answer_comes_after_the_next_request() -> None:
+    faults = Faults(late=1.0, late_by=0.1)
+    with running(listen, I_7018, faults=faults) as here, port(here, "socket") as opened:
+        opened.write(b"$01M\r")
+        sleep(0.05)
+        here.call(lambda: setattr(here.simulator, "faults", Faults()))
+
+        answers = ask(opened, b"$016\r", 14)
+        told = here.observed[0].faults
+
+    assert answers == b"!01FF\r!017018\r"
+    assert told == ("late by 0.1 s",)
+
+
+def test_the_same_seed_has_the_same_faults() -> None:
+    def heard(seed: int) -> list[bytes]:
+        faults = Faults(drop=0.02, flip=0.02, noise=0.2)
+        answers = []
+        with running(listen, I_7018, faults=faults, seed=seed) as here, port(here, "socket") as opened:
+            opened.timeout = 0.05
+            for _ in range(10):
+                answers.append(ask(opened, b"#01\r", 100))
+        return answers
+
+    first = heard(1)
+
+    assert first == heard(1)
+    assert first != heard(2)
+
+
+# --- what modules remember --------------------------------------------------------------------------------------------
+
+
+def test_what_changes_in_an_eeprom_is_stored_at_once() -> None:
+    stored: list[Sequence[Eeprom]] = []
+
+    with running(listen, I_7018, module(Model.I_7017, address=2), store=stored.append) as here:
+        with port(here, "socket") as opened:
+            ask(opened, b"$01M\r", 8)
+            assert stored == []
+
+            ask(opened, b"~01OABC\r", 4)
+
+        assert [[eeprom.name for eeprom in eeproms] for eeproms in stored] == [["ABC", "7017"]]
+
+
+def test_time_passes_for_modules_that_nobody_talks_to() -> None:
+    stored: list[Sequence[Eeprom]] = []
+
+    with running(listen, I_7018, store=stored.append) as here:
+        with port(here, "socket") as opened:
+            ask(opened, b"~013101\r", 4)
+        sleep(0.5)
+
+    assert [eeproms[0].host_watchdog_timeouts for eeproms in stored] == [0, 1]
+
+
+def test_a_memory_that_cannot_be_written_ends_the_simulation() -> None:
+    def store(_: Sequence[Eeprom]) -> None:
+        raise OSError(errno.ENOSPC, "no space")
+
+    with pytest.raises(OSError, match="no space"), running(listen, I_7018, store=store) as here:
+        with port(here, "socket") as opened:
+            assert ask(opened, b"~01OABC\r", 4) == b"!01\r"
+            assert ask(opened, b"~01OABD\r", 4) == b"!01\r"
+
+
+def test_a_power_cycle_leaves_what_is_stored() -> None:
+    with running(listen, I_7018) as here, port(here, "socket") as opened:
+        ask(opened, b"~01OABC\r", 4)
+        ask(opened, b"~01E1\r", 4)
+
+        here.call(here.simulator.power_cycle)
+
+        assert ask(opened, b"$01M\r", 7) == b"!01ABC\r"
+        assert ask(opened, b"$010\r", 4) == b"?01\r"
+
+
+def test_a_module_with_the_init_switch_set_has_address_00() -> None:
+    with running(listen, evolve(I_7018, init_switch=True)) as here, port(here, "socket") as opened:
+        assert ask(opened, b"$00M\r", 8) == b"!007018\r"
+
+
+def test_other_signals_can_be_connected() -> None:
+    with running(listen, I_7018) as here, port(here, "socket") as opened:
+        here.call(lambda: here.simulator.connect([Sources((Fixed(Signal(2.0, Unit.VOLT)),))]))
+
+        assert ask(opened, b"#010\r", 9) == b">+2.0000\r"
+
+
+# --- RFC 2217: line settings ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("settings", "hears"),
+    [
+        ({"baudrate": 19200}, True),
+        ({"baudrate": 19200, "stopbits": 2}, True),
+        ({"baudrate": 9600}, False),
+        ({"baudrate": 19200, "parity": "E"}, False),
+        ({"baudrate": 19200, "bytesize": 7}, False),
+    ],
+)
+def test_a_module_hears_a_host_with_its_line_settings_only(settings: dict[str, object], *, hears: bool) -> None:
+    spoken = module(Model.I_7018, line_settings=LineSettings(BaudRate.BAUD_19200))
+
+    with running(RFC_2217, spoken) as here, port(here, "rfc2217", **settings) as opened:
+        opened.timeout = 2 if hears else 0.1
+
+        assert ask(opened, b"$01M\r", 8) == (b"!017018\r" if hears else b"")
+
+
+def test_a_host_that_wants_what_no_port_has_keeps_what_it_had() -> None:
+    """The server answers with the setting that it has: 9600 bits per second."""
+    with running(RFC_2217, I_7018) as here, socket.create_connection(here.place.split(":"), timeout=2) as opened:
+        opened.sendall(
+            b"\xff\xfb\x2c\xff\xfd\x2c\xff\xfa\x2c\x02\x09\xff\xf0\xff\xfa\x2c\x01\xff\xff\xff\xff\xff\xff\xff\xff\xff\xf0"
+        )
+        heard = b""
+        while b"\x2c\x66\x08" not in heard:
+            heard += opened.recv(1000)
+
+
+@pytest.mark.parametrize(
+    "hostile",
+    [
+        b"\xff\xfa\x2c\x01\xff\xf0",
+        b"\xff\xf0",
+        b"\xff\xfa\x2c\x03\x63\xff\xf0",
+        b"\xff\xfa" + bytes(1000),
+    ],
+    ids=["short", "end without begin", "unknown parity", "without an end"],
+)
+def test_a_host_that_does_not_speak_rfc_2217_is_hung_up_on(hostile: bytes) -> None:
+    with running(RFC_2217, I_7018) as here:
+        with socket.create_connection(here.place.split(":"), timeout=2) as opened:
+            opened.sendall(hostile)
+            with pytest.raises(ConnectionResetError):
+                while opened.recv(1000):
+                    pass
+                raise ConnectionResetError
+
+        with port(here, "rfc2217") as host:
+            assert ask(host, b"$01M\r", 8) == b"!017018\r"
+
+
+# --- hosts that do not behave -----------------------------------------------------------------------------------------
+
+
+@every_transport
+def test_a_host_that_does_not_read_holds_up_nobody(scheme: str) -> None:
+    with running(TRANSPORTS[scheme], I_7018) as here:
+        with port(here, scheme) as opened:
+            opened.write(b"#01\r" * 2000)
+            sleep(0.3)
+        with port(here, scheme) as opened:
+            opened.reset_input_buffer()
+
+            assert ask(opened, b"$01M\r", 8) == b"!017018\r"
+
+
+@every_transport
+def test_noise_is_told_and_does_not_matter(scheme: str) -> None:
+    with running(TRANSPORTS[scheme], I_7018) as here, port(here, scheme) as opened:
+        opened.write(bytes(range(256)) * 20)
+
+        answer = ask(opened, b"\r$01M\r", 8)
+
+    assert answer == b"!017018\r"
+    assert any(isinstance(it.heard, Noise) for it in here.observed)
