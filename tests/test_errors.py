@@ -17,6 +17,12 @@ def test_an_encode_error_with_a_reason_tells_it() -> None:
     assert str(error) == "M-7018 has no CJC update setting: 7019 series only, manual 2.21"
 
 
+def test_an_encode_error_of_no_section_names_none() -> None:
+    error = EncodeError("period", 0.0, "more than 0 seconds", "")
+
+    assert str(error) == "period cannot be 0.0: more than 0 seconds"
+
+
 def test_a_decode_error_names_what_is_wrong_and_where() -> None:
     error = DecodeError(Fault.VALUE, b"~01C2\r", 4, field="enabled", allowed="0 1", section="2.30")
 

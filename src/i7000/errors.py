@@ -57,8 +57,8 @@ class I7000Error(Exception):
 class EncodeError(I7000Error, ValueError):
     """A value that cannot be sent.
 
-    Shape: `field`, `value`, `allowed` (what it could be, or who can), `section` of the manual; `reason` where more is
-        to say than that the field cannot have the value.
+    Shape: `field`, `value`, `allowed` (what it could be, or who can), `section` of the manual, empty where the manual
+        is not the reason; `reason` where more is to say than that the field cannot have the value.
     """
 
     def __init__(self, field: str, value: object, allowed: str, section: str, reason: str = "") -> None:
@@ -71,7 +71,8 @@ class EncodeError(I7000Error, ValueError):
 
     def __str__(self) -> str:
         reason = self.reason or f"{self.field} cannot be {_short(self.value)}"
-        return f"{reason}: {self.allowed}, manual {self.section}"
+        source = f", manual {self.section}" if self.section else ""
+        return f"{reason}: {self.allowed}{source}"
 
 
 class DecodeError(I7000Error, ValueError):

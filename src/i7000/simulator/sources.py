@@ -1,0 +1,371 @@
+"""What is on the inputs of simulated modules over time.
+
+Laws: a source is a pure function of the number of the sample, whatever was asked before; a source that could ever give
+what no input can have is refused when it is made. Inputs are sampled `SAMPLES_A_SECOND` times a second, and a sample
+holds until the next.
+"""
+
+import csv
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from itertools import pairwise
+from math import floor, inf, isfinite, pi, sin
+from random import Random
+from typing import TypeAlias
+
+from attrs import Attribute, field, frozen
+
+from i7000.device import OPEN_WIRE, Eeprom, Signal, Signals
+from i7000.errors import EncodeError
+from i7000.type_codes import TypeCode, Unit
+
+__all__ = [
+    "COLD_JUNCTION",
+    "OPEN",
+    "SAMPLES_A_SECOND",
+    "Fixed",
+    "Noise",
+    "Ramp",
+    "Recorded",
+    "Sine",
+    "Source",
+    "Sources",
+    "default_sources",
+    "read_recording",
+]
+
+SAMPLES_A_SECOND = 10
+
+COLD_JUNCTION = "cold_junction"
+"""The column of a recording that has its temperatures."""
+
+_ROOM_TEMPERATURE = 25.0
+_MOST_DEVIATIONS = 4.0
+_LATEST = 1e300
+"""Seconds beyond which a simulation does not get: its tenths are still a float."""
+_REMEMBERED = 1024
+"""Samples, of all modules together: more than one line has modules."""
+_SHOWN = 60
+"""Characters of a file that a message shows."""
+
+
+def _finite(source: object, attribute: "Attribute[float]", value: float) -> None:
+    if not isfinite(value):
+        raise EncodeError(attribute.name, value, f"a finite number, {type(source).__name__}", "")
+
+
+def _not_negative(source: object, attribute: "Attribute[float]", value: float) -> None:
+    if not 0 <= value < inf:
+        raise EncodeError(attribute.name, value, f"0 or more, {type(source).__name__}", "")
+
+
+def _positive(source: object, attribute: "Attribute[float]", value: float) -> None:
+    if not 0 < value < inf:
+        raise EncodeError(attribute.name, value, f"more than 0 seconds, {type(source).__name__}", "")
+
+
+# --- sources ----------------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Fixed:
+    """Always the same, or an open wire."""
+
+    signal: Signal | None
+
+    @property
+    def extremes(self) -> tuple[Signal | None, ...]:
+        """What it can give."""
+        return (self.signal,)
+
+    def sample(self, number: int) -> Signal | None:  # noqa: ARG002 - the same for all
+        """Tell what is there at the sample of that number."""
+        return self.signal
+
+
+OPEN = Fixed(OPEN_WIRE)
+"""No wire is connected."""
+
+
+@frozen
+class Ramp:
+    """From `low` up towards `high` in `period`, and at once back to `low`.
+
+    Unit: `period` in seconds.
+    Errors: `EncodeError`.
+
+    >>> Ramp(0, 10, 60, Unit.VOLT).sample(150)
+    Signal(value=2.5, unit=<Unit.VOLT: 'V'>)
+    """
+
+    low: float = field(converter=float, validator=_finite)
+    high: float = field(converter=float, validator=_finite)
+    period: float = field(converter=float, validator=_positive)
+    unit: Unit
+
+    def __attrs_post_init__(self) -> None:
+        if self.high < self.low:
+            raise EncodeError("high", self.high, f"{self.low:g} or more, Ramp", "")
+
+    @property
+    def extremes(self) -> tuple[Signal | None, ...]:
+        """The lowest and the highest that it can give."""
+        return Signal(self.low, self.unit), Signal(self.high, self.unit)
+
+    def sample(self, number: int) -> Signal | None:
+        """Tell what is there at the sample of that number."""
+        done = _phase(number, self.period)
+        value = self.low * (1 - done) + self.high * done  # never more than the larger of both, as high - low might be
+        return Signal(min(max(value, self.low), self.high), self.unit)
+
+
+@frozen
+class Sine:
+    """Up and down around `mean`, which it starts from.
+
+    Unit: `period` in seconds.
+    Errors: `EncodeError`.
+
+    >>> [Sine(5, 2, 1.2, Unit.VOLT).sample(number).value for number in (0, 3, 9)]
+    [5.0, 7.0, 3.0]
+    """
+
+    mean: float = field(converter=float, validator=_finite)
+    amplitude: float = field(converter=float, validator=_not_negative)
+    period: float = field(converter=float, validator=_positive)
+    unit: Unit
+
+    def __attrs_post_init__(self) -> None:
+        _ = self.extremes
+
+    @property
+    def extremes(self) -> tuple[Signal | None, ...]:
+        """The lowest and the highest that it can give."""
+        return Signal(self.mean - self.amplitude, self.unit), Signal(self.mean + self.amplitude, self.unit)
+
+    def sample(self, number: int) -> Signal | None:
+        """Tell what is there at the sample of that number."""
+        return Signal(self.mean + self.amplitude * sin(2 * pi * _phase(number, self.period)), self.unit)
+
+
+@frozen
+class Noise:
+    """Normally distributed around `mean`, anew at each sample; what is rarer than 4 deviations is cut off.
+
+    Special: the same seed has the same noise.
+    Errors: `EncodeError`.
+
+    >>> Noise(5, 0.1, Unit.VOLT, seed=1).sample(7) == Noise(5, 0.1, Unit.VOLT, seed=1).sample(7)
+    True
+    """
+
+    mean: float = field(converter=float, validator=_finite)
+    deviation: float = field(converter=float, validator=_not_negative)
+    unit: Unit
+    seed: int | str = field(default=0, kw_only=True)
+
+    def __attrs_post_init__(self) -> None:
+        _ = self.extremes
+
+    @property
+    def extremes(self) -> tuple[Signal | None, ...]:
+        """The lowest and the highest that it can give."""
+        most = _MOST_DEVIATIONS * self.deviation
+        return Signal(self.mean - most, self.unit), Signal(self.mean + most, self.unit)
+
+    def sample(self, number: int) -> Signal | None:
+        """Tell what is there at the sample of that number."""
+        deviations = Random(f"{self.seed} {number}").gauss(0.0, 1.0)  # noqa: S311 - no secret
+        deviations = min(max(deviations, -_MOST_DEVIATIONS), _MOST_DEVIATIONS)
+        return Signal(self.mean + self.deviation * deviations, self.unit)
+
+
+@frozen(cache_hash=True)
+class Recorded:
+    """What was recorded: each row holds until the next one, the last for ever, and the first before its time too.
+
+    Shape: `seconds` of each row, ascending, and as many `signals`.
+    Errors: `EncodeError`.
+
+    >>> recorded = Recorded((0, 2.5), (Signal(1.5, Unit.VOLT), OPEN_WIRE))
+    >>> recorded.sample(24), recorded.sample(25)
+    (Signal(value=1.5, unit=<Unit.VOLT: 'V'>), None)
+    """
+
+    seconds: tuple[float, ...]
+    signals: tuple[Signal | None, ...]
+
+    def __attrs_post_init__(self) -> None:
+        if not self.seconds or len(self.seconds) != len(self.signals):
+            raise EncodeError("signals", self.signals, "as many as seconds, one at least", "")
+        for value in self.seconds:
+            if not 0 <= value < inf:
+                raise EncodeError("seconds", value, "0 or more", "")
+        for before, after in pairwise(self.seconds):
+            if after <= before:
+                raise EncodeError("seconds", after, f"more than the {before:g} before", "")
+
+    @property
+    def extremes(self) -> tuple[Signal | None, ...]:
+        """All that it can give."""
+        return self.signals
+
+    def sample(self, number: int) -> Signal | None:
+        """Tell what is there at the sample of that number."""
+        row = bisect_right(self.seconds, number / SAMPLES_A_SECOND) - 1
+        return self.signals[max(row, 0)]
+
+
+Source: TypeAlias = Fixed | Ramp | Sine | Noise | Recorded
+
+
+def _phase(number: int, period: float) -> float:
+    """Tell how much of the period has passed: 0.0 up to less than 1.0."""
+    samples = period * SAMPLES_A_SECOND
+    return number % samples / samples
+
+
+# --- of a module ------------------------------------------------------------------------------------------------------
+
+
+@frozen(cache_hash=True)
+class Sources:
+    """What is connected to a module, channel 0 first; inputs that are not named are open.
+
+    Errors: `EncodeError` for a cold junction that is ever something else than a temperature that `Signals` can have.
+
+    >>> sources = Sources((Ramp(0, 10, 60, Unit.VOLT), OPEN))
+    >>> sources.at(15.07).channels, sources.at(15.07) is sources.at(15.0)
+    ((Signal(value=2.5, unit=<Unit.VOLT: 'V'>), None), True)
+    """
+
+    channels: tuple[Source, ...] = ()
+    cold_junction: Source = Fixed(Signal(_ROOM_TEMPERATURE, Unit.CELSIUS))
+    _constant: Signals | None = field(init=False, eq=False, repr=False)
+    """What is there if it never changes."""
+
+    def __attrs_post_init__(self) -> None:
+        for signal in self.cold_junction.extremes:
+            _temperature(signal)
+        constant = all(isinstance(source, Fixed) for source in (*self.channels, self.cold_junction))
+        object.__setattr__(self, "_constant", _sample(self, 0) if constant else None)
+
+    def at(self, seconds: float) -> Signals:
+        """Tell what is there: the last sample, and the same object while nothing changes.
+
+        Time: seconds from the start.
+        Errors: `EncodeError` for what is no such time.
+        """
+        if not 0 <= seconds < inf:
+            raise EncodeError("seconds", seconds, "0 or more", "")
+        if self._constant is not None:
+            return self._constant
+        return _remembered_sample(self, floor(min(seconds, _LATEST) * SAMPLES_A_SECOND))
+
+
+def _sample(sources: Sources, number: int) -> Signals:
+    channels = tuple([source.sample(number) for source in sources.channels])
+    return _one(Signals(channels, cold_junction=_temperature(sources.cold_junction.sample(number))))
+
+
+_remembered_sample = lru_cache(_REMEMBERED)(_sample)
+
+
+@lru_cache(_REMEMBERED)
+def _one(signals: Signals) -> Signals:
+    """Give one object for all that are equal."""
+    return signals
+
+
+def _temperature(signal: Signal | None) -> float:
+    """Tell the temperature of a cold junction.
+
+    Errors: `EncodeError`, also from `Signals`, which knows the limits.
+    """
+    if signal is None or signal.unit is not Unit.CELSIUS:
+        raise EncodeError(COLD_JUNCTION, signal, "a temperature in degC", "2.11")
+    return Signals(cold_junction=signal.value).cold_junction
+
+
+def default_sources(eeprom: Eeprom) -> Sources:
+    """Tell what is connected to a module when nothing is said: to each channel something else within its span.
+
+    Special: the cold junction has 25 degC.
+
+    >>> from i7000.device import factory
+    >>> from i7000.models import Model
+    >>> [source.signal.value for source in default_sources(factory(Model.I_7017)).channels]
+    [1.111, 2.222, 3.333, 4.444, 5.556, 6.667, 7.778, 8.889]
+    """
+    count = len(eeprom.type_codes)
+    return Sources(tuple(_within(code, (channel + 1) / (count + 1)) for channel, code in enumerate(eeprom.type_codes)))
+
+
+def _within(code: TypeCode, part: float) -> Fixed:
+    low = max(0.0, code.minimum)
+    return Fixed(Signal(round(low + (code.maximum - low) * part, code.decimals), code.unit))
+
+
+# --- recordings -------------------------------------------------------------------------------------------------------
+
+
+def read_recording(lines: Iterable[str], units: Mapping[str, Unit]) -> dict[str, Recorded]:
+    """Read columns of a CSV file, those that `units` names; the other ones may hold anything.
+
+    Shape: a line with the names of the columns: ``seconds``, numbers of channels, `COLD_JUNCTION`. Cells are numbers,
+        or ``open``. Empty lines do not count.
+    Errors: `EncodeError` that names the line.
+
+    >>> read_recording(["seconds,0,cold_junction", "0,1.5,25", "2.5,open,26"], {"0": Unit.VOLT})["0"].seconds
+    (0.0, 2.5)
+    """
+    rows = _rows(lines)
+    line, header = next(rows, (1, []))
+    for name in ("seconds", *units):
+        if header.count(name) != 1:
+            found = ", ".join(header)[:_SHOWN] or "none"
+            raise EncodeError("columns", header, f"one of them {name}", "", f"line {line}: the columns are {found}")
+    seconds: list[float] = []
+    signals: dict[str, list[Signal | None]] = {name: [] for name in units}
+    for line, row in rows:
+        cells = dict(zip(header, row, strict=False))
+        moment = _cell(line, "seconds", cells)
+        if seconds and moment <= seconds[-1]:
+            raise _wrong(line, "seconds", moment, f"more than the {seconds[-1]:g} before")
+        if moment < 0:
+            raise _wrong(line, "seconds", moment, "0 or more")
+        seconds.append(moment)
+        for name, unit in units.items():
+            signals[name].append(OPEN_WIRE if cells.get(name) == "open" else Signal(_cell(line, name, cells), unit))
+    if not seconds:
+        raise EncodeError("rows", 0, "one at least", "", f"line {line}: no rows follow")
+    return {name: Recorded(tuple(seconds), tuple(column)) for name, column in signals.items()}
+
+
+def _rows(lines: Iterable[str]) -> Iterator[tuple[int, list[str]]]:
+    """Find the rows that hold anything, with the numbers of their lines."""
+    reader = csv.reader(lines, strict=True)
+    try:
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            if any(cells):
+                yield reader.line_num, cells
+    except csv.Error as error:
+        reason = f"line {reader.line_num}: {error}"
+        raise EncodeError("line", reader.line_num, "values with commas between", "", reason) from None
+
+
+def _cell(line: int, name: str, cells: Mapping[str, str]) -> float:
+    text = cells.get(name, "")
+    try:
+        value = float(text)
+    except ValueError:
+        value = inf
+    if not isfinite(value):
+        raise _wrong(line, name, text, "a finite number" if name == "seconds" else "a finite number, or open")
+    return value
+
+
+def _wrong(line: int, name: str, value: object, allowed: str) -> EncodeError:
+    return EncodeError(name, value, allowed, "", f"line {line}: {name} cannot be {value!r:.{_SHOWN}}")
