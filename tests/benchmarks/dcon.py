@@ -65,7 +65,7 @@ def splitter_results() -> Iterator[Result]:
     """Check that the splitter's cost is linear in what it is fed: one large call, small ones, single bytes, noise."""
     count = (1 << 20) // len(FRAME)
     stream = FRAME * count
-    noise = random.Random(7000).randbytes(len(stream))  # noqa: S311 - repeatable
+    noise = random.Random(7000).randbytes(len(stream))
     for size in (len(stream), 1 << 16, 64, 1):
         assert split_all(stream[: 1 << 17], size) == (1 << 17) // len(FRAME)
     times = best_times(

@@ -182,7 +182,7 @@ def codec_results() -> Iterator[Result]:
 
 def crc_results() -> Iterator[Result]:
     """CRC of a short and of a long frame."""
-    noise = random.Random(7000).randbytes(256)  # noqa: S311 - repeatable
+    noise = random.Random(7000).randbytes(256)
     short = noise[:8]
     times = best_times(
         {
@@ -222,7 +222,7 @@ def splitter_results() -> Iterator[Result]:
     """Find the frames of a stream however it arrives, and eat noise."""
     count = (1 << 20) // len(FRAME)
     stream = FRAME * count
-    noise = random.Random(7000).randbytes(1 << 14)  # noqa: S311 - repeatable
+    noise = random.Random(7000).randbytes(1 << 14)
     tasks: dict[str, Task] = {}
     for size, frames in ((1, 64), (64, 256), (4096, 1024)):  # each takes some milliseconds
         assert count == split_all(stream, size) == floor_split_all(stream, size)

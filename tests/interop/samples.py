@@ -45,7 +45,7 @@ class Exchange:
 
 def exchanges(kind: type[Request[Any]], count: int, *, seed: int = 7000) -> Iterator[Exchange]:
     """Make exchanges of one kind: any address but 0, any number of items, any values."""
-    random = Random(f"{kind.__name__} {seed}")  # noqa: S311 - repeatable
+    random = Random(f"{kind.__name__} {seed}")
     for _ in range(count):
         request = _message(kind, random, address=random.randint(1, 247))
         yield Exchange(request, _response(request, random))

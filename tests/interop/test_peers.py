@@ -114,7 +114,7 @@ def test_a_module_carries_out_what_we_send_to_all_and_is_silent(module: type[Pym
 
 @each_host
 def test_it_computes_our_crc(host: Host) -> None:
-    random = Random(7000)  # noqa: S311 - repeatable
+    random = Random(7000)
     for _ in range(1_000):
         data = random.randbytes(random.randrange(1, 300))
 

@@ -100,7 +100,7 @@ def test_it_sees_exceptions_of_every_function_and_code(dissected: Dissect) -> No
 
 def test_it_finds_every_damaged_frame_bad(dissected: Dissect) -> None:
     """Address, function and byte count stay as they are: it looks for the CRC where they say that it is."""
-    random = Random(7000)  # noqa: S311 - repeatable
+    random = Random(7000)
     damaged = []
     for exchange in EXCHANGES:
         frame = bytearray(encode(exchange.response, PROFILE, force=True))

@@ -15,7 +15,7 @@ from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.sources import Sources, default_sources
 
-__all__ = ["Running", "module", "running"]
+__all__ = ["Running", "Transport", "module", "running"]
 
 T = TypeVar("T")
 Transport = Callable[[Simulator], AbstractAsyncContextManager[str]]
