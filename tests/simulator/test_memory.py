@@ -426,11 +426,13 @@ def test_a_value_that_no_log_has_is_refused_where_it_stands(path: Path, old: str
 
 
 def test_more_records_than_a_log_has_room_for_are_refused(path: Path) -> None:
-    records = tuple(Record(index, (0,) * 16, index) for index in range(CAPACITY + 1))
-    save(path, [evolve(MODULES[1], log=Log(records=records))])
+    text = saved(path)
+    record = re.search(r"\{\"index\".*\}", text)
+    assert record
 
-    with pytest.raises(MemoryFileError, match=r"records: cannot be 1025; allowed: 0..1024"):
-        load(path)
+    error = refusal(path, text.replace(record[0], ",".join([record[0]] * (CAPACITY + 1))))
+
+    assert (error.place, error.reason, error.allowed) == ("modules[1].log.records", "cannot be 1025", "0..1024")
 
 
 def test_an_error_tells_the_file_the_place_and_what_is_allowed(path: Path) -> None:
@@ -505,12 +507,24 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(
     assert list(path.parent.iterdir()) == [path]
 
 
-def test_what_cannot_be_written_leaves_the_old_file(path: Path) -> None:
+@pytest.mark.parametrize(
+    ("wrong", "place"),
+    [
+        (Log(clock_offset=float("inf")), "clock_offset"),
+        (Log(next_at=float("nan")), "next_at"),
+        (Log(period=(0, 60, 0)), "period"),
+        (Log(records=(RECORD,) * (CAPACITY + 1)), "records"),
+        (Log(records=(Record(1, (0,) * 15, 0),)), "records[0].words"),
+    ],
+    ids=["infinite", "not a number", "no period", "too many", "too few"],
+)
+def test_what_could_not_be_loaded_is_not_saved(path: Path, wrong: Log, place: str) -> None:
     save(path, MODULES)
 
-    with pytest.raises(ValueError, match="JSON compliant"):
-        save(path, [evolve(MODULES[1], log=Log(clock_offset=float("inf")))])
+    with pytest.raises(MemoryFileError) as caught:
+        save(path, [MODULES[0], evolve(MODULES[1], log=wrong)])
 
+    assert caught.value.place == f"modules[1].log.{place}"
     assert load(path) == MODULES
     assert list(path.parent.iterdir()) == [path]
 

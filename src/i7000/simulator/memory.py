@@ -7,7 +7,7 @@ counts them. A log that is as it comes from the factory is ``null``.
 Laws: a file is read as it is meant or not at all: nothing is left out, added, converted or guessed. `crc` finds a digit
 that turned into another; it goes by the values, not by how they are laid out. Who changes a value on purpose deletes
 that line, and the next `save` writes it anew. A file that is refused is not touched, and one that is written is the old
-one or the new one at any moment, never a part.
+one or the new one at any moment, never a part. What `save` writes, `load` reads.
 """
 
 import json
@@ -70,9 +70,15 @@ def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
     """Write the EEPROMs of modules, all at once: whoever reads the file finds the old ones or the new ones.
 
     Special: what a symbolic link names is replaced, not the link. The mode of a file that exists is kept.
-    Errors: `MemoryFileError` for what is no file, `OSError`; the old file is as it was then.
+    Errors: `MemoryFileError` for what `load` would refuse, and for what is no file; `OSError`. The old file stays as it
+        was then.
     """
-    data = _text(eeproms).encode("ascii")
+    modules = unstructured(eeproms)
+    try:
+        structured(modules)
+    except FAULTS as error:
+        raise MemoryFileError(os.fspath(path), *told(error)) from None
+    data = _text(modules).encode("ascii")
     target = Path(os.path.realpath(path))
     mode = _check_regular(target)
     temporary = target.with_name(f".i7000-{secrets.token_hex(8)}.tmp")
@@ -114,11 +120,10 @@ def _sync(directory: Path) -> None:
 
 # --- the text ---------------------------------------------------------------------------------------------------------
 
-_ENCODER = json.JSONEncoder(allow_nan=False)
+_ENCODER = json.JSONEncoder()
 
 
-def _text(eeproms: Iterable[Eeprom]) -> str:
-    modules = unstructured(eeproms)
+def _text(modules: list[Any]) -> str:
     return _laid_out({"format": FORMAT, "version": VERSION, "crc": _crc(modules), "modules": modules}, "\n") + "\n"
 
 

@@ -206,7 +206,7 @@ def _listed(kind: Any, converter: Converter) -> _Hook:  # noqa: ANN401 - a tuple
     structure_item = converter.get_structure_hook(item)
 
     def structure(value: Any, _: object) -> tuple[Any, ...]:  # noqa: ANN401
-        if not isinstance(value, list) or length not in (None, len(value)):
+        if not isinstance(value, list | tuple) or length not in (None, len(value)):
             raise _no(value, "a list" if length is None else f"a list of {length}")
         found = []
         for at, one in enumerate(value):
@@ -279,7 +279,7 @@ _OVERRIDES = {
     ReportSettings: {"data_format": override(struct_hook=_labelled(DataFormat)), "reserved": override(omit=True)},
     Record: {
         "words": override(
-            struct_hook=_words, unstruct_hook=lambda words: struct.pack(">16H", *words).hex(" ", 2).upper()
+            struct_hook=_words, unstruct_hook=lambda words: struct.pack(f">{len(words)}H", *words).hex(" ", 2).upper()
         )
     },
 }
