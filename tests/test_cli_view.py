@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from i7000 import Firmware, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit
+from i7000.cli.view import View
 from i7000.device import Signal, Signals, State, factory, power_on
 from i7000.simulator.observed import Observed
-from i7000.simulator.view import View
 
 HOT = (Signal(25.12, Unit.CELSIUS), Signal(1500.0, Unit.CELSIUS), Signal(-300.0, Unit.CELSIUS))
 SIGNALS = Signals((*HOT, Signal(5.0, Unit.CELSIUS), Signal(1.5, Unit.VOLT)))

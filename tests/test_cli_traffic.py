@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import Fault, Model, Noise, Profile, Protocol, TypeCode, dcon, modbus, strategies
-from i7000.simulator.lines import lines
+from i7000.cli.traffic import lines
 from i7000.simulator.observed import Observed
 
 DCON, RTU = Protocol.DCON, Protocol.MODBUS_RTU

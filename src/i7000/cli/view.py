@@ -16,9 +16,9 @@ from rich.text import Text
 
 from i7000 import BaudRate, LineSettings, Protocol
 from i7000.cli.text import printable
+from i7000.cli.traffic import INDENT, lines, readings_text
 from i7000.device import Signals, State
 from i7000.device.measurement import readings
-from i7000.simulator.lines import INDENT, lines, readings_text
 from i7000.simulator.observed import Observed
 
 __all__ = ["View"]
