@@ -193,6 +193,18 @@ def test_the_logger_goes_on_after_a_power_cycle() -> None:
     assert module.state.eeprom.log.command is LogCommand.CONTINUOUS
 
 
+@pytest.mark.parametrize("command", [1, 2])
+def test_nothing_is_recorded_without_power(command: int) -> None:
+    module = logger(start=(2024, 2, 29, 12, 0, 0))
+    module.write("log_command", command)
+    module.wait(15)
+    module.now += 3610
+    module.power_cycle()
+    module.wait(10)
+
+    assert times(module) == [0, 10, 3630, -1, -1, -1]
+
+
 def test_a_clock_that_is_set_back_does_not_keep_the_logger_waiting() -> None:
     module = logger()
     module.write("log_command", 1)

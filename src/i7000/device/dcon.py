@@ -16,7 +16,7 @@ from i7000.device.changes import (
     set_types,
     type_code,
 )
-from i7000.device.measurement import cold_junction, faults, fields
+from i7000.device.measurement import cold_junction, faults, fields, sample, sampled_fields
 from i7000.device.signals import Signals
 from i7000.device.state import Eeprom, State
 from i7000.errors import DecodeError, EncodeError
@@ -131,13 +131,12 @@ _TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
 
 
 def _tell_sampled(call: _Call) -> tuple[State, dcon.SynchronizedData]:
-    """Tell what was sampled at the last ``#**``, in the data format of now; refuse if there was none."""
+    """Tell what was sampled at the last ``#**``, in the data format of now (E108); refuse if there was none."""
     ram = call.state.ram
     if ram.sampled is None:
         raise _RefusedError
-    response = dcon.SynchronizedData(
-        call.address, first_reading=not ram.sampled_data_told, values=fields(call.state, ram.sampled)
-    )
+    values = sampled_fields(ram.sampled, call.state.profile.data_format)
+    response = dcon.SynchronizedData(call.address, first_reading=not ram.sampled_data_told, values=values)
     return call.state.keep(sampled_data_told=True), response
 
 
@@ -210,6 +209,8 @@ _DONE: dict[type, Callable[[_Call], State]] = {
 }
 
 _BROADCASTS: dict[type, Callable[[_Call], State]] = {
-    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=it.signals, sampled_data_told=False),
+    dcon.SynchronizedSampling: lambda it: it.state.keep(
+        sampled=sample(it.state, it.signals), sampled_data_told=False
+    ),
     dcon.HostOk: lambda it: it.state.keep(fed_at=it.now),
 }

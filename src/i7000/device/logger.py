@@ -104,6 +104,11 @@ class Log:
             until = min(until, moment_of(self.end))
         return max(0, floor((until - self.next_at) / self.seconds) + 1)
 
+    def resumed(self, now: float) -> "Log":
+        """Leave out what was due without power; the records after it keep to their periods (E110)."""
+        due = self.due(now)
+        return evolve(self, next_at=self.next_at + due * self.seconds) if due else self
+
     def recorded(self, words: tuple[int, ...], due: int) -> "Log":
         """Write the records that are due, as many as there is room for; the oldest make room where that is allowed."""
         room = due if self.overwrite else min(due, CAPACITY - len(self.records))

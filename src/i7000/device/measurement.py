@@ -9,14 +9,14 @@ remembered.
 from functools import lru_cache
 
 from i7000.device.signals import Signal, Signals
-from i7000.device.state import Eeprom, State, profile_of
+from i7000.device.state import Eeprom, Sample, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
 from i7000.readings import Reading, Status, encode_engineering_word, encode_field, encode_word
 from i7000.settings import CjcUpdate, DataFormat, ModbusDataFormat
 from i7000.type_codes import TypeCode, Unit
 
-__all__ = ["cold_junction", "faults", "fields", "readings", "temperatures", "words"]
+__all__ = ["cold_junction", "faults", "fields", "readings", "sample", "sampled_fields", "temperatures", "words"]
 
 _7018_SERIES, _7019_SERIES = series("7018"), series("7019")
 _MILLIVOLTS = {Unit.MILLIVOLT: 1.0, Unit.VOLT: 1000.0, Unit.MILLIAMPERE: 125.0}
@@ -150,6 +150,19 @@ def _fields(eeprom: Eeprom, junction: float, signals: Signals, data_format: Data
         told = [(code, _zero_if_disabled(reading, code)) for code, reading in told]
     legacy = profile.legacy_sentinels
     return tuple([_field(reading, code, data_format, legacy=legacy) for code, reading in told])
+
+
+def sample(state: State, signals: Signals) -> Sample:
+    """Tell what ``#**`` keeps: the type of each channel, and what it reads."""
+    return tuple(zip(state.profile.type_codes, readings(state, signals), strict=False))
+
+
+def sampled_fields(kept: Sample, data_format: DataFormat) -> tuple[str, ...]:
+    """Tell the fields of what ``#**`` has kept; whatever was set since, but the data format, does not matter.
+
+    Manual: 2.12; E25, E108.
+    """
+    return tuple([_field(reading, code, data_format, legacy=False) for code, reading in kept])
 
 
 def _field(value: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool) -> str:

@@ -11,10 +11,10 @@ from attrs import evolve, field, frozen
 
 from i7000.dcon import SetModuleName
 from i7000.device.logger import Log
-from i7000.device.signals import Signals
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
+from i7000.readings import Reading
 from i7000.settings import (
     BaudRate,
     CjcUpdate,
@@ -26,7 +26,7 @@ from i7000.settings import (
 )
 from i7000.type_codes import TypeCode
 
-__all__ = ["NEWEST", "Eeprom", "Ram", "State", "factory", "power_on"]
+__all__ = ["NEWEST", "Eeprom", "Ram", "Sample", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
 """The latest firmware that the manual names: what a module has that is not said to have another (assumption)."""
@@ -142,13 +142,17 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
         firmware=NEWEST if firmware is None else firmware,
         type_codes=(model.default_type or TypeCode.J,) * inputs,
         report_settings=ReportSettings(fast_mode=model.fast_mode_default),
-        name=(model.series + model.suffix.replace("-", ""))[:6],
+        name=(model.series + model.suffix.replace("-", "")).upper()[:6],
         protocol=max(model.protocols),
         channel_mask=(1 << inputs) - 1,
         channel_offsets=zeros,
         channel_cjc_offsets=zeros,
         open_wire_detection=model.open_wire_detection,
     )
+
+
+Sample = tuple[tuple[TypeCode, Reading], ...]
+"""The type of each channel and what it read, at one moment."""
 
 
 @frozen
@@ -170,8 +174,8 @@ class Ram:
     """Whether the switch is set now (E17)."""
     fed_at: float
     """When the host watchdog last heard of the host."""
-    sampled: Signals | None = None
-    """What was on the inputs at the last ``#**``."""
+    sampled: Sample | None = None
+    """What the channels read at the last ``#**``."""
     sampled_data_told: bool = False
     calibration_enabled: bool = False
     soft_init_timeout: int = 0
@@ -227,8 +231,9 @@ class State:
 def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
     """Give power to a module; with a running one's EEPROM, a power cycle.
 
-    Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
-    Manual: 1.12.2, A.1; E101.
+    Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays. What
+        the data logger would have recorded without power it has not.
+    Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
     >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
@@ -243,7 +248,8 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
         init_switch=init_switch,
         fed_at=now,
     )
-    return State(eeprom, ram)
+    log = eeprom.log.resumed(now)
+    return State(eeprom if log is eeprom.log else evolve(eeprom, log=log), ram)
 
 
 def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:
