@@ -1,7 +1,8 @@
 """A module that speaks DCON (manual 2): what it tells, what it does, when it refuses and when it is silent.
 
 Laws: a frame that is damaged, not for this module or of a command that it does not have is not answered; a well-formed
-command that it cannot carry out is answered ``?AA``, and changes nothing (E27).
+command that it cannot carry out is answered ``?AA``, and changes nothing (E27). Only ``~**`` is a sign of life of the
+host (E106, assumption).
 """
 
 from collections.abc import Callable
@@ -147,7 +148,7 @@ def _set_configuration(call: _Call) -> State:
     """Set the configuration: all at once but line and checksum, which take permission.
 
     Special: the INIT switch allows them for the next power-on, a soft INIT at once; with both, as the switch.
-    Manual: 2.1; E17, E20, E81, E101.
+    Manual: 2.1; E17, E20, E81, E101, E107.
     """
     state, command, ram = call.state, call.command, call.state.ram
     line, report = command.line_settings, command.report_settings
@@ -177,7 +178,7 @@ def _set_protocol(call: _Call) -> State:
 
 
 def _soft_init(call: _Call) -> State:
-    """Allow the next command to change line and checksum for the time that was set before (E20, E32)."""
+    """Allow the next command to change line and checksum for the time that was set before (E20, E32, E107)."""
     return call.state.keep(soft_init_until=call.now + call.state.ram.soft_init_timeout)
 
 

@@ -29,7 +29,7 @@ from i7000.type_codes import TypeCode
 __all__ = ["NEWEST", "Eeprom", "Ram", "Sample", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
-"""The latest firmware that the manual names: what a module has that is not said to have another (assumption)."""
+"""The latest firmware that the manual names: what a module has that is not said to have another (E113)."""
 
 
 def inputs_of(model: Model) -> int:
@@ -51,7 +51,7 @@ class Eeprom:
     type_codes: tuple[TypeCode, ...]
     report_settings: ReportSettings
     name: str
-    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (assumption)."""
+    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
     protocol: Protocol
     channel_mask: int
     channel_offsets: tuple[int, ...]
@@ -71,7 +71,7 @@ class Eeprom:
     """Tenths of a second."""
     host_watchdog_timed_out: bool = False
     host_watchdog_timeouts: int = 0
-    """How often it has timed out (40492); kept without power, as the status is (assumption)."""
+    """How often it has timed out (40492); kept without power, as the status is (E114)."""
     host_watchdog_mode: bool = False
     """Coil 00260, which means nothing to modules without outputs (E30)."""
     response_delay: int = 0
@@ -129,8 +129,8 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
     """Tell what a module remembers that comes from the factory.
 
     Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
-        has type 0E, the first that it can have (assumption).
-    Manual: 1.9; E35, E83, E95.
+        has type 0E, the first that it can have (E35, assumption).
+    Manual: 1.9; E35, E83, E95, E113.
 
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
     ('7018', 'MODBUS_RTU', 32)
@@ -181,9 +181,9 @@ class Ram:
     soft_init_timeout: int = 0
     """Seconds."""
     soft_init_until: float | None = None
-    """Until when line and checksum can be changed."""
+    """Until when line and checksum can be changed (E107)."""
     cjc_update: CjcUpdate = CjcUpdate.STARTED
-    """Not kept without power: power-on starts the update, the default (assumption)."""
+    """Not kept without power: power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
     """The cold junction's temperature when its update ended, in degrees Celsius."""
     reset_status_told: bool = False
