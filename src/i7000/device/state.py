@@ -231,8 +231,8 @@ class State:
 def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
     """Give power to a module; with a running one's EEPROM, a power cycle.
 
-    Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays. What
-        the data logger would have recorded without power it has not.
+    Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
+        Without power the data logger has recorded nothing.
     Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
