@@ -210,8 +210,6 @@ _DONE: dict[type, Callable[[_Call], State]] = {
 }
 
 _BROADCASTS: dict[type, Callable[[_Call], State]] = {
-    dcon.SynchronizedSampling: lambda it: it.state.keep(
-        sampled=sample(it.state, it.signals), sampled_data_told=False
-    ),
+    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=sample(it.state, it.signals), sampled_data_told=False),
     dcon.HostOk: lambda it: it.state.keep(fed_at=it.now),
 }
