@@ -15,7 +15,6 @@ __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 CAPACITY = 1024
 """Records that the logger has room for (E109, assumption: the manual has no number)."""
 RECORDS_IN_MAP = 6
-RECORD_READINGS = 16
 
 Date = tuple[int, int, int, int, int, int]
 """Year, month, date, hour, minute, second."""
