@@ -2,21 +2,21 @@
 
 Laws: every signal has a reading, every reading a field and a word. The model is linear: a thermocouple without
 compensation reads its hot end less the cold junction, and an error of the cold junction is an error of the reading
-(assumption: the manual has no tables of thermocouples). What is asked for again while nothing has changed is
+(E116, assumption: the manual has no tables of thermocouples). What is asked for again while nothing has changed is
 remembered.
 """
 
 from functools import lru_cache
 
 from i7000.device.signals import Signal, Signals
-from i7000.device.state import Eeprom, State, profile_of
+from i7000.device.state import Eeprom, Sample, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
 from i7000.readings import Reading, Status, encode_engineering_word, encode_field, encode_word
 from i7000.settings import CjcUpdate, DataFormat, ModbusDataFormat
 from i7000.type_codes import TypeCode, Unit
 
-__all__ = ["cold_junction", "faults", "fields", "readings", "temperatures", "words"]
+__all__ = ["cold_junction", "faults", "fields", "readings", "sample", "sampled_fields", "temperatures", "words"]
 
 _7018_SERIES, _7019_SERIES = series("7018"), series("7019")
 _MILLIVOLTS = {Unit.MILLIVOLT: 1.0, Unit.VOLT: 1000.0, Unit.MILLIAMPERE: 125.0}
@@ -31,9 +31,9 @@ def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
     """Tell what the channels read, those included that only the single-ended mode has.
 
     Special: a disabled channel is `Status.DISABLED`; beyond the span of the type is over or under range, for voltages
-        and currents too (assumption); an open thermocouple wire is over range where it is looked for (assumption), and
-        else reads as a short circuit does.
-    Manual: 1.3, 1.11; E42, E50, E69, E96.
+        and currents too (E50, assumption); an open thermocouple wire is over range where it is looked for (E69,
+        assumption), and else reads as a short circuit does (E116, assumption).
+    Manual: 1.3, 1.11; E42, E50, E69, E96, E116, E118, E119.
     """
     return _readings(state.eeprom, _junction(state, signals), signals)
 
@@ -92,7 +92,7 @@ def _compensation(eeprom: Eeprom, junction: float, channel: int) -> float:
 
 
 def _in_twelve_bits(value: float, type_code: TypeCode) -> float:
-    """Round to the steps of the fast mode, of which the span has 4096 (E96); the last is one step below the top."""
+    """Round to the steps of the fast mode, of which the span has 4096 (E119); the last is one step below the top."""
     low = -type_code.full_scale if type_code.signed_hex else type_code.minimum
     step = (type_code.maximum - low) / _FAST_STEPS
     return low + min(round((value - low) / step), _FAST_STEPS - 1) * step
@@ -134,7 +134,7 @@ def faults(state: State, signals: Signals, channels: int) -> tuple[bool, ...]:
 def fields(state: State, signals: Signals, data_format: DataFormat | None = None) -> tuple[str, ...]:
     """Tell the fields of a report of all channels, in the module's data format or in one that is given.
 
-    Special: a disabled channel is blanks on the 7019 series, and elsewhere 0 (assumption).
+    Special: a disabled channel is blanks on the 7019 series, and elsewhere what a register has (E25, assumption).
     Manual: 1.11, 2.3; E25, E49.
     """
     if data_format is None:
@@ -152,6 +152,19 @@ def _fields(eeprom: Eeprom, junction: float, signals: Signals, data_format: Data
     return tuple([_field(reading, code, data_format, legacy=legacy) for code, reading in told])
 
 
+def sample(state: State, signals: Signals) -> Sample:
+    """Tell what ``#**`` keeps: the type of each channel, and what it reads."""
+    return tuple(zip(state.profile.type_codes, readings(state, signals), strict=False))
+
+
+def sampled_fields(kept: Sample, data_format: DataFormat) -> tuple[str, ...]:
+    """Tell the fields of what ``#**`` has kept; whatever was set since, but the data format, does not matter.
+
+    Manual: 2.12; E25, E108.
+    """
+    return tuple([_field(reading, code, data_format, legacy=False) for code, reading in kept])
+
+
 def _field(value: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool) -> str:
     """Write a reading, or the end of the span that is nearest to what the format cannot say."""
     try:
@@ -163,8 +176,8 @@ def _field(value: Reading, type_code: TypeCode, data_format: DataFormat, *, lega
 def words(state: State, signals: Signals) -> tuple[int, ...]:
     """Tell the registers of the channels, in the Modbus data format.
 
-    Special: a disabled channel is 0 (assumption).
-    Manual: 3.2, 3.5; E83, E97.
+    Special: a disabled channel is 0, or the lower end of a type that begins above it (E97, assumption).
+    Manual: 3.2, 3.5; E83, E97, E118.
     """
     return _words(state.eeprom, _junction(state, signals), signals)
 
@@ -196,7 +209,7 @@ _OUT_OF_RANGE_DEGREES = {Status.OVER_RANGE: 0x7FFF, Status.UNDER_RANGE: -0x8000,
 
 
 def temperatures(state: State, signals: Signals) -> tuple[int, ...]:
-    """Tell the registers of whole degrees of the M-7018-16 (30033..); 0 for what is no thermocouple (assumption).
+    """Tell the registers of whole degrees of the M-7018-16 (30033..); 0 for what is no thermocouple (E117).
 
     Manual: 3.4.7.
     """

@@ -126,7 +126,7 @@ def series_bytes(model: Model) -> bytes:
 
 
 def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
-    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (assumption).
+    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption).
 
     Manual: 3.3.7; E67, E75.
     """
@@ -135,7 +135,7 @@ def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
 
 
 def _records(context: Context) -> list[int]:
-    """Tell the records from the read index on; where there is none, zeros (assumption)."""
+    """Tell the records from the read index on; where there is none, zeros (E109)."""
     words: list[int] = []
     for record in context.eeprom.log.window():
         if record is None:

@@ -11,10 +11,10 @@ from attrs import evolve, field, frozen
 
 from i7000.dcon import SetModuleName
 from i7000.device.logger import Log
-from i7000.device.signals import Signals
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
+from i7000.readings import Reading
 from i7000.settings import (
     BaudRate,
     CjcUpdate,
@@ -26,10 +26,10 @@ from i7000.settings import (
 )
 from i7000.type_codes import TypeCode
 
-__all__ = ["NEWEST", "Eeprom", "Ram", "State", "factory", "power_on"]
+__all__ = ["NEWEST", "Eeprom", "Ram", "Sample", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
-"""The latest firmware that the manual names: what a module has that is not said to have another (assumption)."""
+"""The latest firmware that the manual names: what a module has that is not said to have another (E113)."""
 
 
 def inputs_of(model: Model) -> int:
@@ -51,7 +51,7 @@ class Eeprom:
     type_codes: tuple[TypeCode, ...]
     report_settings: ReportSettings
     name: str
-    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (assumption)."""
+    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
     protocol: Protocol
     channel_mask: int
     channel_offsets: tuple[int, ...]
@@ -71,7 +71,7 @@ class Eeprom:
     """Tenths of a second."""
     host_watchdog_timed_out: bool = False
     host_watchdog_timeouts: int = 0
-    """How often it has timed out (40492); kept without power, as the status is (assumption)."""
+    """How often it has timed out (40492); kept without power, as the status is (E114)."""
     host_watchdog_mode: bool = False
     """Coil 00260, which means nothing to modules without outputs (E30)."""
     response_delay: int = 0
@@ -129,8 +129,8 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
     """Tell what a module remembers that comes from the factory.
 
     Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
-        has type 0E, the first that it can have (assumption).
-    Manual: 1.9; E35, E83, E95.
+        has type 0E, the first that it can have (E35, assumption).
+    Manual: 1.9; E35, E83, E95, E113.
 
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
     ('7018', 'MODBUS_RTU', 32)
@@ -142,13 +142,17 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
         firmware=NEWEST if firmware is None else firmware,
         type_codes=(model.default_type or TypeCode.J,) * inputs,
         report_settings=ReportSettings(fast_mode=model.fast_mode_default),
-        name=(model.series + model.suffix.replace("-", ""))[:6],
+        name=(model.series + model.suffix.replace("-", "")).upper()[:6],
         protocol=max(model.protocols),
         channel_mask=(1 << inputs) - 1,
         channel_offsets=zeros,
         channel_cjc_offsets=zeros,
         open_wire_detection=model.open_wire_detection,
     )
+
+
+Sample = tuple[tuple[TypeCode, Reading], ...]
+"""The type of each channel and what it read, at one moment."""
 
 
 @frozen
@@ -170,16 +174,16 @@ class Ram:
     """Whether the switch is set now (E17)."""
     fed_at: float
     """When the host watchdog last heard of the host."""
-    sampled: Signals | None = None
-    """What was on the inputs at the last ``#**``."""
+    sampled: Sample | None = None
+    """What the channels read at the last ``#**``."""
     sampled_data_told: bool = False
     calibration_enabled: bool = False
     soft_init_timeout: int = 0
     """Seconds."""
     soft_init_until: float | None = None
-    """Until when line and checksum can be changed."""
+    """Until when line and checksum can be changed (E107)."""
     cjc_update: CjcUpdate = CjcUpdate.STARTED
-    """Not kept without power: power-on starts the update, the default (assumption)."""
+    """Not kept without power: power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
     """The cold junction's temperature when its update ended, in degrees Celsius."""
     reset_status_told: bool = False
@@ -228,7 +232,8 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
     """Give power to a module; with a running one's EEPROM, a power cycle.
 
     Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
-    Manual: 1.12.2, A.1; E101.
+        Without power the data logger has recorded nothing.
+    Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
     >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
@@ -243,7 +248,8 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
         init_switch=init_switch,
         fed_at=now,
     )
-    return State(eeprom, ram)
+    log = eeprom.log.resumed(now)
+    return State(eeprom if log is eeprom.log else evolve(eeprom, log=log), ram)
 
 
 def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:
