@@ -9,7 +9,7 @@ remembered.
 from functools import lru_cache
 
 from i7000.device.signals import Signal, Signals
-from i7000.device.state import Eeprom, State, profile_of
+from i7000.device.state import Eeprom, Inputs, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
 from i7000.readings import Reading, Status, encode_engineering_word, encode_field, encode_word
@@ -35,11 +35,12 @@ def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
         else reads as a short circuit does.
     Manual: 1.3, 1.11; E42, E50, E69, E96.
     """
-    return _readings(state.eeprom, _junction(state, signals), signals)
+    return _readings(state.inputs, _junction(state, signals), signals)
 
 
 @lru_cache(_REMEMBERED)
-def _readings(eeprom: Eeprom, junction: float, signals: Signals) -> tuple[Reading, ...]:
+def _readings(inputs: Inputs, junction: float, signals: Signals) -> tuple[Reading, ...]:
+    eeprom = inputs.eeprom
     return tuple(_reading(eeprom, junction, signals, channel) for channel in range(len(eeprom.type_codes)))
 
 
@@ -139,13 +140,14 @@ def fields(state: State, signals: Signals, data_format: DataFormat | None = None
     """
     if data_format is None:
         data_format = state.profile.data_format
-    return _fields(state.eeprom, _junction(state, signals), signals, data_format)
+    return _fields(state.inputs, _junction(state, signals), signals, data_format)
 
 
 @lru_cache(_REMEMBERED)
-def _fields(eeprom: Eeprom, junction: float, signals: Signals, data_format: DataFormat) -> tuple[str, ...]:
+def _fields(inputs: Inputs, junction: float, signals: Signals, data_format: DataFormat) -> tuple[str, ...]:
+    eeprom = inputs.eeprom
     profile = profile_of(eeprom)
-    told = list(zip(profile.type_codes, _readings(eeprom, junction, signals), strict=False))
+    told = list(zip(profile.type_codes, _readings(inputs, junction, signals), strict=False))
     if eeprom.model not in _7019_SERIES:
         told = [(code, _zero_if_disabled(reading, code)) for code, reading in told]
     legacy = profile.legacy_sentinels
@@ -166,12 +168,13 @@ def words(state: State, signals: Signals) -> tuple[int, ...]:
     Special: a disabled channel is 0 (assumption).
     Manual: 3.2, 3.5; E83, E97.
     """
-    return _words(state.eeprom, _junction(state, signals), signals)
+    return _words(state.inputs, _junction(state, signals), signals)
 
 
 @lru_cache(_REMEMBERED)
-def _words(eeprom: Eeprom, junction: float, signals: Signals) -> tuple[int, ...]:
-    told = zip(eeprom.type_codes, _readings(eeprom, junction, signals), strict=True)
+def _words(inputs: Inputs, junction: float, signals: Signals) -> tuple[int, ...]:
+    eeprom = inputs.eeprom
+    told = zip(eeprom.type_codes, _readings(inputs, junction, signals), strict=True)
     write = encode_engineering_word if eeprom.modbus_data_format is ModbusDataFormat.ENGINEERING else _hex_word
     return tuple([write(_zero_if_disabled(reading, code), code) for code, reading in told])
 
