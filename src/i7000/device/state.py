@@ -64,7 +64,9 @@ def _one_each(check: Check | None = None) -> Check:
 
 
 def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: int) -> None:
-    _within(0, (1 << inputs_of(eeprom.model)) - 1)(eeprom, attribute, mask)
+    most = (1 << inputs_of(eeprom.model)) - 1
+    if not 0 <= mask <= most:
+        raise EncodeError(attribute.name, mask, f"0..{most}", "3.4")
 
 
 def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
@@ -157,10 +159,11 @@ _Frozen = TypeVar("_Frozen")
 
 def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
     """Copy a frozen value with changes, which are not checked: what is frozen is its own dictionary."""
-    if not changes.keys() <= vars(value).keys():
-        raise TypeError(f"{type(value).__name__} has no {changes.keys() - vars(value).keys()}")
+    fields = vars(value) | changes
+    if len(fields) != len(vars(value)):
+        raise TypeError(f"{type(value).__name__} has no {fields.keys() - vars(value).keys()}")
     copy = object.__new__(type(value))
-    vars(copy).update(vars(value), **changes)
+    object.__setattr__(copy, "__dict__", fields)
     return copy
 
 
