@@ -21,7 +21,6 @@ FIXED = Signals.of(Unit.MILLIVOLT, *(100.0 * channel for channel in range(8)))
 MANY = 100_000
 
 
-
 def module(protocol: Protocol, *, checksum: bool = False) -> State:
     """An M-7019R, all channels +/- 1 V."""
     made = factory(Model.M_7019R)

@@ -100,3 +100,27 @@ def test_a_state_is_frozen_and_keeps_its_profile() -> None:
     assert state.keep(checksum=True).profile.checksum
     assert state.keep(checksum=True).store(address=5).profile.checksum
     assert state.keep(line_settings=LineSettings(BaudRate.BAUD_1200)).profile == state.profile
+
+
+def test_what_no_module_can_have_stored_is_not_stored() -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0)
+
+    for changes in (
+        {"address": 256},
+        {"name": ""},
+        {"channel_mask": 256},
+        {"single_ended": True},
+        {"model": Model.I_7018},
+    ):
+        with pytest.raises(EncodeError):
+            state.store(**changes)
+    with pytest.raises(TypeError, match="colour"):
+        state.store(colour="red")
+    with pytest.raises(TypeError, match="colour"):
+        state.keep(colour="red")
+
+
+def test_a_change_of_the_firmware_changes_the_profile() -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0)
+
+    assert state.store(firmware=Firmware("B1.0")).profile.firmware == Firmware("B1.0")
