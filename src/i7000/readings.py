@@ -165,6 +165,12 @@ def _not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
 
 def are_fields(fields: tuple[str, ...]) -> bool:
     """Whether all of `fields` are whole channel fields of some one data format, of whatever firmware."""
+    known = _UNIFORM.get((DataFormat.ENGINEERING, len(fields)))
+    if known:  # nearly always: all are numbers, which is seen at one glance
+        text = "".join(fields)
+        shape, uniform, split = known
+        if text.encode("ascii", "replace").translate(shape) in uniform and split(text) == fields:
+            return True
     return any(all(is_field(field, data_format, legacy=True) for field in fields) for data_format in DataFormat)
 
 
@@ -226,6 +232,30 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat,
     if not low <= number <= high:
         raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
     return text if number else text.replace("-", "+")
+
+
+def encode_fields(
+    readings: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool = False
+) -> tuple[str, ...]:
+    """Write the fields of all channels, channel 0 first.
+
+    Errors: `EncodeError` as for `encode_field`.
+    """
+    if data_format is DataFormat.ENGINEERING and len(set(types)) == 1:
+        values, units, statuses = zip(*readings, strict=True)
+        form, low, high = _TEXTS[data_format, types[0]]
+        if (
+            statuses.count(Status.OK) == units.count(types[0].unit) == len(types)
+            and {float, Unit}.issuperset(map(type, values + units))
+            and False not in [low <= value <= high for value in values]
+        ):  # nearly always, so it is done without a step in Python for each channel
+            text = form * len(types) % values
+            fields = tuple([text[at : at + _TEXT_WIDTH] for at in range(0, len(text), _TEXT_WIDTH)])
+            if _MINUS_ZEROS.isdisjoint(fields):
+                return fields
+    return tuple(
+        [encode_field(reading, code, data_format, legacy=legacy) for reading, code in zip(readings, types, strict=True)]
+    )
 
 
 def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFormat) -> tuple[Reading, ...]:
@@ -393,6 +423,8 @@ for _code in TypeCode:
     _TEXTS[DataFormat.PERCENT, _code] = (
         f"%+0{_TEXT_WIDTH}.2f", round(_percent(_low, _code), 2), round(_percent(_high, _code), 2),
     )  # fmt: skip
+
+_MINUS_ZEROS = frozenset(form % -0.0 for form, _, _ in _TEXTS.values())
 
 _HUGE = 1e9
 """Beyond every span, and small enough to be scaled."""

@@ -15,7 +15,15 @@ from i7000.device.signals import OPEN_WIRE, Signal, Signals
 from i7000.device.state import Eeprom, Inputs, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
-from i7000.readings import Reading, Status, encode_engineering_word, encode_field, encode_word, make_reading
+from i7000.readings import (
+    Reading,
+    Status,
+    encode_engineering_word,
+    encode_field,
+    encode_fields,
+    encode_word,
+    make_reading,
+)
 from i7000.settings import CjcUpdate, DataFormat, ModbusDataFormat
 from i7000.type_codes import TypeCode, Unit
 
@@ -155,7 +163,10 @@ def _fields(inputs: Inputs, junction: float, signals: Signals, data_format: Data
     told = _readings(inputs, junction, signals)[: len(types)]
     if profile.model not in _7019_SERIES:
         told = _zero_if_disabled(told, types)
-    return _written(partial(encode_field, data_format=data_format, legacy=profile.legacy_sentinels), told, types)
+    try:
+        return encode_fields(told, types, data_format, legacy=profile.legacy_sentinels)
+    except EncodeError:
+        return _clamped(partial(encode_field, data_format=data_format, legacy=profile.legacy_sentinels), told, types)
 
 
 def words(state: State, signals: Signals) -> tuple[int, ...]:
@@ -172,7 +183,11 @@ def _words(inputs: Inputs, junction: float, signals: Signals) -> tuple[int, ...]
     types = inputs.eeprom.type_codes
     engineering = inputs.eeprom.modbus_data_format is ModbusDataFormat.ENGINEERING
     told = _zero_if_disabled(_readings(inputs, junction, signals), types)
-    return _written(encode_engineering_word if engineering else encode_word, told, types)
+    write = encode_engineering_word if engineering else encode_word
+    try:
+        return tuple(map(write, told, types))
+    except EncodeError:
+        return _clamped(write, told, types)
 
 
 def _zero_if_disabled(told: tuple[Reading, ...], types: tuple[TypeCode, ...]) -> tuple[Reading, ...]:
@@ -187,23 +202,18 @@ def _zero_if_disabled(told: tuple[Reading, ...], types: tuple[TypeCode, ...]) ->
 _Written = TypeVar("_Written", str, int)
 
 
-def _written(
+def _clamped(
     write: Callable[[Reading, TypeCode], _Written], told: tuple[Reading, ...], types: tuple[TypeCode, ...]
 ) -> tuple[_Written, ...]:
-    """Write readings; what the format cannot say is the end of the span that is nearest."""
-    try:
-        return tuple(map(write, told, types))
-    except EncodeError:
-        return tuple(_clamped(write, reading, code) for reading, code in zip(told, types, strict=True))
-
-
-def _clamped(write: Callable[[Reading, TypeCode], _Written], reading: Reading, type_code: TypeCode) -> _Written:
-    """Put the end of the span in the place of a range error that has no word: hex, voltages and currents (E46)."""
-    try:
-        return write(reading, type_code)
-    except EncodeError:
-        end = type_code.maximum if reading.status is Status.OVER_RANGE else type_code.minimum
-        return write(Reading(end, reading.unit), type_code)
+    """Write readings, the nearest end of the span for a range error that has no word: hex, voltages, currents (E46)."""
+    written = []
+    for reading, type_code in zip(told, types, strict=True):
+        try:
+            written.append(write(reading, type_code))
+        except EncodeError:
+            end = type_code.maximum if reading.status is Status.OVER_RANGE else type_code.minimum
+            written.append(write(Reading(end, reading.unit), type_code))
+    return tuple(written)
 
 
 _OUT_OF_RANGE_DEGREES = {Status.OVER_RANGE: 0x7FFF, Status.UNDER_RANGE: -0x8000, Status.DISABLED: 0}
