@@ -7,13 +7,13 @@ each step, made before. Frames that write are sent in turn, so that each changes
 
 from collections.abc import Iterator
 from contextlib import suppress
-from itertools import cycle, repeat
+from itertools import count, cycle, repeat
 from typing import Any
 
 from attrs import evolve, frozen
 
 from i7000 import DecodeError, Model, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
-from i7000.device import Signal, Signals, State, factory, power_on, step
+from i7000.device import LogCommand, Signal, Signals, State, factory, power_on, step
 from tests.benchmarks.timing import Result, Task, at_most, best_times
 
 MOST = 4.0
@@ -38,14 +38,17 @@ class Dialogue:
     frames: tuple[bytes, ...]
     changing: bool = False
     """Whether there are other signals each time."""
+    seconds: float = 0.0
+    """How much time passes between two."""
 
     def device(self) -> Task:
         """Let the module hear the next frame."""
         state, frames, signals = self.state, cycle(self.frames), changing() if self.changing else repeat(FIXED)
+        moments = count(0.0, self.seconds)
 
         def hear() -> bytes | None:
             nonlocal state
-            state, answer = step(state, next(frames), next(signals), 0.0)
+            state, answer = step(state, next(frames), next(signals), next(moments))
             return answer
 
         return hear
@@ -135,9 +138,20 @@ def modbus_dialogues() -> Iterator[Dialogue]:
     yield says("05, each changes a coil", *(modbus.WriteSingleCoil(0x01, 268, value) for value in (True, False)))
     yield says("46h, each changes the mask", *(modbus.SetChannelMask(0x01, mask) for mask in (0x7F, 0xFF)))
     yield says("03, exception 02", modbus.ReadHoldingRegisters(0x01, 470, 10))
+    yield Dialogue("04, 16 channels, a log record each time", logging(), says("", READ_16).frames, seconds=1.0)
     yield says("04 to another module", modbus.ReadInputRegisters(0x02, 0, 8))
     frame = modbus.encode(modbus.ReadInputRegisters(0x01, 0, 8))
     yield Dialogue("04 with a wrong CRC", state, (frame[:-1] + bytes((frame[-1] ^ 1,)),))
+
+
+READ_16 = modbus.ReadInputRegisters(0x01, 0, 16)
+
+
+def logging() -> State:
+    """An M-7017mC-16 that makes a record every second, and room for it."""
+    state = power_on(factory(Model.M_7017mC_16), now=0.0)
+    log = evolve(state.eeprom.log, command=LogCommand.CONTINUOUS, period=(0, 0, 1), overwrite=True)
+    return state.store(log=log.planned(0.0))
 
 
 def step_results() -> Iterator[Result]:

@@ -292,8 +292,8 @@ def some_readings(code: TypeCode) -> st.SearchStrategy[Reading]:
 def test_a_report_is_written_as_its_fields_are(
     types: list[TypeCode],
     data_format: DataFormat,
-    legacy: bool,
-    data: st.DataObject,  # noqa: FBT001 - drawn
+    legacy: bool,  # noqa: FBT001 - drawn
+    data: st.DataObject,
 ) -> None:
     found = tuple(data.draw(some_readings(code)) for code in types)
     try:
