@@ -160,7 +160,7 @@ def step_results() -> Iterator[Result]:
         found = {dialogue.what: dialogue for dialogue in dialogues}
         tasks = {f"step {what}": dialogue.device() for what, dialogue in found.items()}
         tasks |= {what: dialogue.codec() for what, dialogue in found.items()}
-        times = best_times(tasks, seconds=0.01)
+        times = best_times(tasks, turns=100, seconds=0.004)
         for what in found:
             yield at_most(f"step, of its own codec: {protocol} {what}", times[f"step {what}"], times[what], MOST)
         slowest = max(times[f"step {what}"] for what in found)

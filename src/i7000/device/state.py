@@ -133,14 +133,13 @@ class Eeprom:
     log: Log = field(default=Log(), hash=False)
 
     def __attrs_post_init__(self) -> None:
-        self.check_types()
+        self.check_types(profile_of(self))  # which refuses a mode or format that the model does not have
 
-    def check_types(self) -> None:
-        """Refuse types that the channels cannot have, those included that are channels in single-ended mode only.
+    def check_types(self, profile: Profile) -> None:
+        """Refuse types of the channels that the connecting mode does not have; those of the others, `profile` refused.
 
-        Errors: `EncodeError`, also for a mode or data format that the model does not have.
+        Errors: `EncodeError`.
         """
-        profile = profile_of(self)
         if not all(map(profile.supports, self.type_codes[profile.channels :])):
             raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
@@ -274,11 +273,12 @@ class State:
             stored = _STORED[name]
             if stored.validator:
                 stored.validator(eeprom, stored, value)
+        profile = self.profile
         if not _OF_PROFILE.isdisjoint(changes):
-            eeprom.check_types()
-            return State(eeprom, self.ram)
+            profile = profile_of(eeprom, checksum=self.ram.checksum)
+            eeprom.check_types(profile)
         inputs = self.inputs if _OF_READINGS.isdisjoint(changes) else Inputs(eeprom)
-        return State(eeprom, self.ram, profile=self.profile, inputs=inputs)
+        return State(eeprom, self.ram, profile=profile, inputs=inputs)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
         """Change the RAM."""
