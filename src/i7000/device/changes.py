@@ -34,7 +34,7 @@ def set_types(state: State, code: TypeCode, channels: Iterable[int] | None = Non
     """Set the type of some channels, or of all; where they cannot differ, of all."""
     types = list(state.eeprom.type_codes)
     if channels is None or not state.profile.individually_configurable:
-        channels = range(len(types))
+        return state.store(type_codes=(code,) * len(types))
     for channel in channels:
         types[channel] = code
     return state.store(type_codes=tuple(types))
