@@ -304,9 +304,7 @@ def test_an_echo_held_back_by_noise_is_found_at_the_deadline_with_the_answer_aft
     bus, nothing = hear(ask(idle(echo=True), WORDS), beginning + modbus.encode(WORDS) + WORDS_WIRE)
 
     assert nothing == ()
-    assert (Noise(beginning, Fault.LENGTH), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))) == wake(
-        bus, due(bus)
-    )[1]
+    assert (Noise(beginning, Fault.CRC), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))) == wake(bus, due(bus))[1]
 
 
 def test_what_is_heard_before_anything_was_sent_is_no_answer() -> None:
