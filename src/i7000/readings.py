@@ -237,10 +237,7 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat,
 def encode_fields(
     readings: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool = False
 ) -> tuple[str, ...]:
-    """Write the fields of all channels, channel 0 first.
-
-    Errors: `EncodeError` as for `encode_field`.
-    """
+    """Write the fields of all channels, channel 0 first; errors as for `encode_field`."""
     if data_format is DataFormat.ENGINEERING and len(set(types)) == 1:
         values, units, statuses = zip(*readings, strict=True)
         form, low, high = _TEXTS[data_format, types[0]]

@@ -78,11 +78,9 @@ def _readings(inputs: Inputs, junction: float, signals: Signals) -> tuple[Readin
 
 
 def _electrical(signal: Signal | None, unit: Unit) -> float:
-    """Tell the voltage or current at an input; nothing and thermocouples are as good as 0."""
+    """Tell the voltage or current at an input in another unit; nothing and thermocouples are as good as 0."""
     if signal is None or signal.unit is Unit.CELSIUS:
         return 0.0
-    if signal.unit is unit:
-        return signal.value
     return signal.value * _MILLIVOLTS[signal.unit] / _MILLIVOLTS[unit]
 
 
