@@ -18,17 +18,13 @@ async def serve() -> None:
     """Simulate the bus."""
     loop = asyncio.get_running_loop()
     simulator = Simulator([station.simulated() for station in STATIONS])
-
-    def end() -> None:
-        loop.remove_reader(sys.stdin)
-        if not simulator.ended.done():
-            simulator.ended.set_result(None)
-
-    loop.add_reader(sys.stdin, end)
-    loop.call_later(LONGEST, end)
     async with listen(simulator) as place:
+        simulated = asyncio.create_task(simulator.run())
+        loop.add_reader(sys.stdin, simulated.cancel)
         print(place, flush=True)  # noqa: T201
-        await simulator.run()
+        await asyncio.wait((simulated,), timeout=LONGEST)
+        loop.remove_reader(sys.stdin)
+        simulated.cancel()
 
 
 if __name__ == "__main__":
