@@ -1,6 +1,8 @@
 """The two transcriptions of the manual, ``spec/`` and ``src/``, say the same: both ways, row by row."""
 
+import re
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -33,8 +35,28 @@ COMMAND_ROWS = {row["name"]: row for row in rows("dcon_commands")}
 TYPE_ROWS = {row["code"]: row for row in rows("type_codes")}
 
 
+SRC = Path(__file__).parents[1] / "src" / "i7000"
+
+
 def as_text(firmware: Firmware | None) -> str | None:
     return None if firmware is None else str(firmware)
+
+
+# --- errata -----------------------------------------------------------------------------------------------------------
+
+
+def cited(folder: Path) -> set[str]:
+    """The errata that docstrings name: E5 is E05."""
+    texts = "".join(path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
+    return {f"E{int(number):02d}" for number in re.findall(r"(?<!noqa: )\bE(\d{1,3})\b", texts)}
+
+
+def test_every_erratum_that_the_code_cites_is_one() -> None:
+    assert cited(SRC) - {row["id"] for row in rows("errata")} == set()
+
+
+def test_the_model_of_a_module_cites_the_errata_that_it_relies_on() -> None:
+    assert {row["id"] for row in rows("errata") if "device" in row["used_by"]} - cited(SRC / "device") == set()
 
 
 # --- models -----------------------------------------------------------------------------------------------------------

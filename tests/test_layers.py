@@ -30,7 +30,7 @@ EXTRAS = {
     "strategies": {"hypothesis"},
     "cli": {"cyclopts", "rich"},
     "examples": {"serial"},
-    "simulator": {"cyclopts", "rich", "serial"},
+    "simulator": {"cattrs", "serial"},
 }
 PURE = {
     "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",

@@ -8,7 +8,7 @@ Manual: 1, 1.3, 1.9, 1.11, the notes of chapter 2.
 import re
 from collections.abc import Iterable, Mapping
 from enum import Enum
-from functools import total_ordering
+from functools import cached_property, total_ordering
 
 from attrs import field, frozen
 
@@ -158,7 +158,7 @@ class Model(Enum):
             return TypeCode.MA_20_0D
         return TypeCode.V_2_5 if self.series == "7018" else TypeCode.V_10
 
-    @property
+    @cached_property
     def type_codes(self) -> Mapping[TypeCode, Firmware | None]:  # noqa: PLR0911 - a table
         """The types it supports, and the firmware from which on (1.11; E35 to E42)."""
         low, high = _codes(0x00, 0x06), _codes(0x08, 0x0D)

@@ -165,6 +165,12 @@ def _not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
 
 def are_fields(fields: tuple[str, ...]) -> bool:
     """Whether all of `fields` are whole channel fields of some one data format, of whatever firmware."""
+    known = _UNIFORM.get((DataFormat.ENGINEERING, len(fields)))
+    if known:  # nearly always: all are numbers, which is seen at one glance
+        text = "".join(fields)
+        shape, uniform, split = known
+        if text.encode("ascii", "replace").translate(shape) in uniform and split(text) == fields:
+            return True
     return any(all(is_field(field, data_format, legacy=True) for field in fields) for data_format in DataFormat)
 
 
@@ -218,15 +224,38 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat,
     if reading.status is not Status.OK:
         return _OUT_OF_RANGE_TEXTS[data_format][reading.status]
     value = _number(reading)
-    if data_format is DataFormat.ENGINEERING:
-        low, high, decimals = type_code.minimum, type_code.maximum, type_code.decimals
-    else:
-        value, low, high, decimals = *(_percent(v, type_code) for v in (value, type_code.minimum, type_code.maximum)), 2
-    text = f"{value:+0{_TEXT_WIDTH}.{decimals}f}"
+    if data_format is DataFormat.PERCENT:
+        value = _percent(value, type_code)
+    form, low, high = _TEXTS[data_format, type_code]
+    text = form % value
     number = float(text)
-    if not round(low, decimals) <= number <= round(high, decimals):
+    if not low <= number <= high:
         raise _beyond(reading, type_code, type_code.minimum, type_code.maximum)
     return text if number else text.replace("-", "+")
+
+
+def encode_fields(
+    readings: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool = False
+) -> tuple[str, ...]:
+    """Write the fields of all channels, channel 0 first.
+
+    Errors: `EncodeError` as for `encode_field`.
+    """
+    if data_format is DataFormat.ENGINEERING and len(set(types)) == 1:
+        values, units, statuses = zip(*readings, strict=True)
+        form, low, high = _TEXTS[data_format, types[0]]
+        if (
+            statuses.count(Status.OK) == units.count(types[0].unit) == len(types)
+            and {float, Unit}.issuperset(map(type, values + units))
+            and False not in [low <= value <= high for value in values]
+        ):  # nearly always, so it is done without a step in Python for each channel
+            text = form * len(types) % values
+            fields = tuple([text[at : at + _TEXT_WIDTH] for at in range(0, len(text), _TEXT_WIDTH)])
+            if _MINUS_ZEROS.isdisjoint(fields):
+                return fields
+    return tuple(
+        [encode_field(reading, code, data_format, legacy=legacy) for reading, code in zip(readings, types, strict=True)]
+    )
 
 
 def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFormat) -> tuple[Reading, ...]:
@@ -237,7 +266,7 @@ def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFo
         and _NOT_NUMBERS.isdisjoint(fields)
         and not profile.legacy_sentinels
     ):  # nearly always, so it is done without a step in Python for each channel
-        return tuple(map(_make_reading, zip(map(float, fields), profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
+        return tuple(map(make_reading, zip(map(float, fields), profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
     found = []
     for channel, (field, type_code) in enumerate(zip(fields, profile.type_codes, strict=True)):
         try:
@@ -250,7 +279,8 @@ def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFo
 
 _NOT_NUMBERS = frozenset((*_TEXT_SENTINELS, _TEXT_BLANKS))
 _ALL_OK = repeat(Status.OK)
-_make_reading = MethodType(tuple.__new__, Reading)
+make_reading = MethodType(tuple.__new__, Reading)
+"""Of value, unit and status: without the step in Python that `Reading` takes."""
 
 # --- 16-bit words -----------------------------------------------------------------------------------------------------
 
@@ -385,8 +415,20 @@ def _percent(value: float, type_code: TypeCode) -> float:
     return (value - type_code.minimum) * 100 / (type_code.maximum - type_code.minimum)
 
 
+_TEXTS: dict[tuple[DataFormat, TypeCode], tuple[str, float, float]] = {}
+"""How numbers are written as text, and from where to where."""
+for _code in TypeCode:
+    _low, _high = _code.minimum, _code.maximum
+    _TEXTS[DataFormat.ENGINEERING, _code] = (f"%+0{_TEXT_WIDTH}.{_code.decimals}f", _low, _high)
+    _TEXTS[DataFormat.PERCENT, _code] = (
+        f"%+0{_TEXT_WIDTH}.2f", round(_percent(_low, _code), 2), round(_percent(_high, _code), 2),
+    )  # fmt: skip
+
+_MINUS_ZEROS = frozenset(form % -0.0 for form, _, _ in _TEXTS.values())
+
 _HUGE = 1e9
 """Beyond every span, and small enough to be scaled."""
+_NUMBERS = (int, float)
 
 
 def _check(reading: Reading, type_code: TypeCode) -> None:
@@ -402,7 +444,7 @@ def _check(reading: Reading, type_code: TypeCode) -> None:
 def _number(reading: Reading) -> float:
     """The value of a reading that is to be sent as a number."""
     value = reading.value
-    if isinstance(value, bool) or not isinstance(value, int | float) or not -_HUGE < value < _HUGE:
+    if isinstance(value, bool) or not isinstance(value, _NUMBERS) or not -_HUGE < value < _HUGE:
         raise EncodeError("value", value, "a finite number, of a size that a module can measure", "1.11")
     return value
 

@@ -36,6 +36,14 @@ class TypeCode(IntEnum):
     maximum: float
     thermocouple: str
     """The thermocouple's letter, or empty."""
+    full_scale: float
+    """The larger absolute value of the span, MAX of the manual: what 100 % and 7FFF stand for."""
+    signed_hex: bool
+    """Whether a hex word is two's complement; the other two types run from 0000 at `minimum` to FFFF (E45)."""
+    decimals: int
+    """Digits after the point of the DCON engineering text: five digits in all."""
+    modbus_decimals: int
+    """Digits after the point of the Modbus engineering word: as in text, less one where 16 bits cannot hold it."""
 
     MV_15 = 0x00
     MV_50 = 0x01
@@ -72,26 +80,6 @@ class TypeCode(IntEnum):
         """The member of `code`; a code that is none (`MIXED`, say) stays the number it is."""
         return _MEMBERS.get(code, code)
 
-    @property
-    def full_scale(self) -> float:
-        """The larger absolute value of the span, MAX of the manual: what 100 % and 7FFF stand for."""
-        return max(abs(self.minimum), abs(self.maximum))
-
-    @property
-    def signed_hex(self) -> bool:
-        """Whether a hex word is two's complement; the other two types run from 0000 at `minimum` to FFFF (E45)."""
-        return self not in (TypeCode.MA_4_20, TypeCode.MA_0_20)
-
-    @property
-    def decimals(self) -> int:
-        """Digits after the point of the DCON engineering text: five digits in all."""
-        return _TEXT_DIGITS - len(str(int(self.full_scale)))
-
-    @property
-    def modbus_decimals(self) -> int:
-        """Digits after the point of the Modbus engineering word: as in text, less one where 16 bits cannot hold it."""
-        return self.decimals - int(self.full_scale * 10**self.decimals > _INT16_MAX)
-
 
 _FACTS: dict[TypeCode, tuple[Unit, float, float, str]] = {
     TypeCode.MV_15: (Unit.MILLIVOLT, -15, 15, ""),
@@ -127,5 +115,9 @@ _FACTS: dict[TypeCode, tuple[Unit, float, float, str]] = {
 
 for _code, (_unit, _minimum, _maximum, _thermocouple) in _FACTS.items():
     _code.unit, _code.minimum, _code.maximum, _code.thermocouple = _unit, _minimum, _maximum, _thermocouple
+    _code.full_scale = max(abs(_minimum), abs(_maximum))
+    _code.signed_hex = _code not in (TypeCode.MA_4_20, TypeCode.MA_0_20)
+    _code.decimals = _TEXT_DIGITS - len(str(int(_code.full_scale)))
+    _code.modbus_decimals = _code.decimals - int(_code.full_scale * 10**_code.decimals > _INT16_MAX)
 
 _MEMBERS: dict[int, TypeCode] = {member.value: member for member in TypeCode}

@@ -2,7 +2,7 @@
 
 import sys
 
-from tests.benchmarks import dcon, imports, load, modbus
+from tests.benchmarks import dcon, device, imports, load, modbus
 
 missed = 0
 for results in (
@@ -10,6 +10,7 @@ for results in (
     dcon.splitter_results,
     modbus.codec_results,
     modbus.splitter_results,
+    device.step_results,
     imports.import_results,
     load.load_results,
 ):

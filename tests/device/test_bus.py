@@ -7,7 +7,21 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import BaudRate, Fault, LineSettings, Model, Noise, Profile, Protocol, dcon, modbus
+from i7000 import (
+    BaudRate,
+    DataFormat,
+    Fault,
+    LineSettings,
+    Model,
+    Noise,
+    Profile,
+    Protocol,
+    ReportSettings,
+    TypeCode,
+    Unit,
+    dcon,
+    modbus,
+)
 from i7000.device import Bus, Ear, Heard, Log, LogCommand, Signals, State, Uart, power_on, step
 from i7000.device.uart import hear_at
 from i7000.strategies.dcon import frames as dcon_frames
@@ -47,6 +61,25 @@ def test_the_module_that_is_asked_answers_in_its_protocol() -> None:
     asked = modbus.encode(modbus.ReadModuleName(1)), modbus.encode(modbus.ReadModuleName(2))
     assert hear(line, asked[0])[1] == modbus.encode(modbus.ModuleName(1, b"\0\x70\x17\0"))
     assert hear(line, asked[1])[1] is None
+
+
+def test_three_modules_read_in_the_formats_that_the_manual_shows() -> None:
+    volts = (5.96301157, 2.98104801, -2.27847715, -9.71633478, 1.18472854, -2.84153506, 7.69676809, -5.43434806)
+    hexadecimal = ReportSettings(DataFormat.HEX)
+    line = Bus((
+        bench(Model.I_7017, type_code=TypeCode.MV_150).state,
+        bench(Model.I_7017, address=2, report_settings=hexadecimal).state,
+        bench(Model.I_7018, address=3, type_code=TypeCode.K).state,
+    ))  # fmt: skip
+    signals = (
+        Signals.of(Unit.MILLIVOLT, 25.12, 20.45, 12.78, 18.97, 3.24, 15.35, 8.07, 14.79),
+        Signals.of(Unit.VOLT, *volts),
+        Signals.of(Unit.CELSIUS, *[-300.0] * 8),
+    )
+
+    assert line.step(b"#01\r", signals, 1000.0)[1] == (b">+025.12+020.45+012.78+018.97+003.24+015.35+008.07+014.79\r")
+    assert line.step(b"#02\r", signals, 1000.0)[1] == b">4C532628E2D683A20F2ADBA16284BA71\r"
+    assert line.step(b"#03\r", signals, 1000.0)[1] == b">" + b"-9999.9" * 8 + b"\r"
 
 
 def test_a_broadcast_reaches_all_that_know_it() -> None:

@@ -416,12 +416,14 @@ def test_what_was_sampled_is_told_in_the_data_format_of_now() -> None:
     assert module.say("#010") == ">4000"
 
 
-def test_a_type_that_was_changed_since_the_sampling_is_what_it_is_told_in() -> None:
-    module = bench(Model.I_7019R, signals=VOLTS)
+@pytest.mark.parametrize("command", ["$01501", "$017C0R0A", "$019+1000", "~01C0", "~01EO0", "$01A0"])
+def test_what_was_sampled_stays_as_it_was_read_whatever_is_set_since(command: str) -> None:
+    module = bench(Model.I_7019R, type_code=TypeCode.K, signals=Signals.of(Unit.CELSIUS, 20.0, 1400.0))
     module.say("#**")
-    module.say(f"$017C0R{TypeCode.V_1_0A:02X}")
+    module.signals = Signals(cold_junction=40.0)
+    assert module.say(command) == "!01"
 
-    assert str(module.say("$014")).startswith(">011+1.0000-01.000")
+    assert module.say("$014") == ">011+0020.0" + "+9999.9" * 7
 
 
 def test_states_are_values() -> None:

@@ -3,9 +3,11 @@
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from i7000 import Model, Protocol, Unit, modbus
-from i7000.device import CAPACITY, Log, LogCommand, Signals
+from i7000.device import CAPACITY, Log, LogCommand, Signals, advance
 from i7000.device.logger import date_of, moment_of
 from tests.device.driver import Bench, bench
 
@@ -191,6 +193,39 @@ def test_the_logger_goes_on_after_a_power_cycle() -> None:
 
     assert module.read("log_last_index") == 3
     assert module.state.eeprom.log.command is LogCommand.CONTINUOUS
+
+
+@pytest.mark.parametrize("command", [1, 2])
+def test_nothing_is_recorded_without_power(command: int) -> None:
+    module = logger(start=(2024, 2, 29, 12, 0, 0))
+    module.write("log_command", command)
+    module.wait(15)
+    module.now += 3610
+    module.power_cycle()
+    module.wait(10)
+
+    assert times(module) == [0, 10, 3630, -1, -1, -1]
+
+
+@given(
+    st.builds(
+        Log,
+        clock_offset=st.just(NOON - 1000.0),
+        command=st.sampled_from(LogCommand),
+        overwrite=st.booleans(),
+        period=st.tuples(st.just(0), st.integers(0, 1), st.integers(0, 59)),
+        start=st.tuples(st.just(2024), st.just(2), st.just(29), st.just(12), st.integers(0, 59), st.just(0)),
+        end=st.tuples(st.just(2024), st.just(2), st.just(29), st.just(12), st.integers(0, 59), st.just(30)),
+    ).map(lambda log: log.planned(1000.0)),
+    st.lists(st.floats(1000.0, 5000.0)).map(sorted),
+)
+def test_how_often_the_time_is_looked_at_makes_no_difference(log: Log, moments: list[float]) -> None:
+    module = bench(Model.M_7017mC_16, log=log, host_watchdog_enabled=True, host_watchdog_timeout=255)
+    often = module.state
+    for moment in (*moments, 5000.0):
+        often = advance(often, module.signals, moment)
+
+    assert advance(module.state, module.signals, 5000.0) == often
 
 
 def test_a_clock_that_is_set_back_does_not_keep_the_logger_waiting() -> None:

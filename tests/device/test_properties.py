@@ -3,12 +3,13 @@
 from collections.abc import Callable
 from typing import Any
 
-from attrs import evolve
+from attrs import asdict, evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from i7000 import DecodeError, Model, Protocol, Status, Unit, dcon, modbus
-from i7000.device import Bus, Signal, Signals, State, advance, factory, power_on, step
+from i7000 import DataFormat, DecodeError, Model, Protocol, Status, Unit, dcon, modbus
+from i7000.device import Bus, Eeprom, Ram, Signal, Signals, State, advance, factory, power_on, step
+from i7000.device.measurement import fields, words
 from i7000.strategies import firmwares, line_settings, report_settings
 from i7000.strategies.dcon import any_commands, damaged
 from i7000.strategies.vocabulary import supported_types
@@ -169,6 +170,22 @@ def test_after_any_dialogue_a_module_can_still_be_understood(case: tuple[State, 
     assert (told.address, told.line_settings, told.report_settings) == (
         state.eeprom.address, state.eeprom.line_settings, state.eeprom.report_settings,
     )  # fmt: skip
+
+
+@FREQUENT
+@given(states().flatmap(lambda state: st.tuples(st.just(state), st.lists(frames(state), max_size=12))), signals())
+def test_a_state_that_was_reached_is_as_one_that_is_made(case: tuple[State, list[bytes]], on: Signals) -> None:
+    state, dialogue = case
+    for at, frame in enumerate(dialogue):
+        state, _ = step(state, frame, on, NOW + at)
+
+    made = State(Eeprom(**asdict(state.eeprom, recurse=False)), Ram(**asdict(state.ram, recurse=False)))
+
+    assert made == state
+    assert made.profile == state.profile
+    for data_format in DataFormat:
+        assert fields(made, on, data_format) == fields(state, on, data_format)
+    assert words(made, on) == words(state, on)
 
 
 @given(states(Protocol.DCON), signals())

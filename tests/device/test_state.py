@@ -3,6 +3,7 @@
 from types import FunctionType, ModuleType
 from typing import Any
 
+import attrs
 import pytest
 from attrs import evolve, exceptions
 
@@ -12,14 +13,17 @@ from i7000 import (
     EncodeError,
     Firmware,
     LineSettings,
+    ModbusDataFormat,
     Model,
     Profile,
     Protocol,
     ReportSettings,
     TypeCode,
+    Unit,
     device,
 )
-from i7000.device import factory, power_on
+from i7000.device import Eeprom, Log, Signal, Signals, State, factory, power_on
+from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
 from i7000.models import AVAILABILITY, CONFIGURABLE
 
@@ -100,3 +104,83 @@ def test_a_state_is_frozen_and_keeps_its_profile() -> None:
     assert state.keep(checksum=True).profile.checksum
     assert state.keep(checksum=True).store(address=5).profile.checksum
     assert state.keep(line_settings=LineSettings(BaudRate.BAUD_1200)).profile == state.profile
+
+
+def test_what_no_module_can_have_stored_is_not_stored() -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0)
+
+    for changes in (
+        {"address": 256},
+        {"name": ""},
+        {"channel_mask": 256},
+        {"single_ended": True},
+        {"model": Model.I_7018},
+    ):
+        with pytest.raises(EncodeError):
+            state.store(**changes)
+    with pytest.raises(TypeError, match="colour"):
+        state.store(colour="red")
+    with pytest.raises(TypeError, match="colour"):
+        state.keep(colour="red")
+
+
+def test_a_change_of_the_firmware_changes_the_profile() -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0)
+
+    assert state.store(firmware=Firmware("B1.0")).profile.firmware == Firmware("B1.0")
+
+
+CHANGES: dict[str, Any] = {
+    "model": Model.M_7018R,
+    "firmware": Firmware("B4.0"),
+    "type_codes": (TypeCode.J,) * 8,
+    "report_settings": ReportSettings(DataFormat.HEX, fast_mode=True),
+    "name": "A",
+    "protocol": Protocol.DCON,
+    "channel_mask": 0x55,
+    "channel_offsets": (10,) * 8,
+    "channel_cjc_offsets": (100,) * 8,
+    "open_wire_detection": False,
+    "address": 2,
+    "line_settings": LineSettings(BaudRate.BAUD_1200),
+    "single_ended": False,
+    "modbus_data_format": ModbusDataFormat.ENGINEERING,
+    "cjc_offset": 100,
+    "cjc_enabled": False,
+    "host_watchdog_enabled": True,
+    "host_watchdog_timeout": 1,
+    "host_watchdog_timed_out": True,
+    "host_watchdog_timeouts": 1,
+    "host_watchdog_mode": True,
+    "response_delay": 1,
+    "sampling_rate_8_hz": False,
+    "big_endian": True,
+    "log": Log(read_index=2),
+}
+
+
+def test_every_setting_is_changed_below() -> None:
+    assert CHANGES.keys() == attrs.fields_dict(Eeprom).keys()
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_module_that_was_changed_is_as_one_that_was_made_so(name: str) -> None:
+    signals = Signals((Signal(100.0, Unit.CELSIUS), None))
+    before = power_on(evolve(factory(Model.M_7019R), type_codes=(TypeCode.K,) * 8), now=0.0)
+    changed = before.store(**{name: CHANGES[name]})
+
+    made = State(evolve(before.eeprom, **{name: CHANGES[name]}), before.ram)
+
+    assert made == changed
+    assert made.profile == changed.profile
+    assert (fields(made, signals), words(made, signals)) == (fields(changed, signals), words(changed, signals))
+
+
+def test_a_module_of_20_channels_that_was_changed_is_as_one_that_was_made_so() -> None:
+    before = power_on(factory(Model.M_7017Z), now=0.0)
+    changed = before.store(single_ended=True)
+
+    made = power_on(evolve(before.eeprom, single_ended=True), now=0.0)
+
+    assert made.profile == changed.profile
+    assert fields(made, Signals()) == fields(changed, Signals())

@@ -1,192 +1,275 @@
-"""The example drivers against a module that answers on a pseudo-terminal."""
+"""The example drivers against a simulated bus on a pseudo-terminal, with and without faults of the line."""
 
 import asyncio
 import os
 import pty
 import runpy
-import select
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from threading import Thread
+from random import Random
 from time import sleep
 from types import ModuleType
 from typing import Any
 
 import pytest
 import serial
-from attrs import evolve
+from attrs import frozen
 
-from i7000 import Model, Profile, TypeCode, dcon, modbus
+from i7000 import BaudRate, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
+from i7000.device import OPEN_WIRE, Signal
 from i7000.examples import async_driver, sync_driver
 from i7000.host import Answered, AnyCommand, Bus, Declined, Outcome, Policy, Sent, TimedOut
+from i7000.simulator.faults import Faults
+from i7000.simulator.pseudo_terminal import open_pty
+from i7000.simulator.sources import Fixed, Sources
+from tests.simulator.running import Running, module, running
 
-PROFILE = Profile(Model.M_7019R, type_codes=(TypeCode.K,) * 8)
-SEALED = evolve(PROFILE, checksum=True)
-LINE = "+0025.1+0026.4       +9999.9+0020.0+0020.1+0020.2+0020.3"
-INPUTS = dcon.ReadAnalogInputs(0x01)
-WORDS = modbus.ReadInputRegisters(0x01, 0, 8)
-POLICY = Policy(retries=1, turnaround=0.2, grace=0.1)
-
-Answer = Callable[[bytes], list[bytes]]
-"""What a module says to what it hears, in pieces."""
+Request = tuple[AnyCommand, Profile]
+NO_SUCH_MODULE = dcon.ReadAnalogInputs(0x0F)
 
 
-class Module(Thread):
-    """A module at the far end of a pseudo-terminal."""
-
-    def __init__(self) -> None:
-        super().__init__(daemon=True)
-        self.end, self.near = pty.openpty()
-        self.path = os.ttyname(self.near)
-        self.answers: dict[bytes, list[bytes]] = {}
-        """To each request its answers, one for each time, the last of them for ever."""
-        self.delays: dict[bytes, float] = {}
-        """Seconds that a request takes."""
-        self.heard: list[bytes] = []
-        self.closing, self.close = os.pipe()
-
-    def run(self) -> None:
-        while self.closing not in select.select([self.end, self.closing], [], [])[0]:
-            wire = os.read(self.end, 1000)
-            self.heard.append(wire)
-            sleep(self.delays.get(wire, 0.0))
-            answers = self.answers.get(wire, [])
-            for byte in answers.pop(0) if len(answers) > 1 else b"".join(answers):
-                os.write(self.end, bytes((byte,)))
-
-    def says(self, command: AnyCommand, *answers: bytes, profile: Profile = PROFILE) -> None:
-        wire = modbus.encode(command) if isinstance(command, modbus.Request) else dcon.encode(command, profile)
-        self.answers[wire] = list(answers)
+def sources(unit: Unit, *values: float | None) -> Sources:
+    return Sources(tuple(Fixed(OPEN_WIRE if value is None else Signal(value, unit)) for value in values))
 
 
-@pytest.fixture
-def module() -> Iterator[Module]:
-    module = Module()
-    module.start()
-    yield module
-    os.write(module.close, b"\0")
-    module.join()
-    for descriptor in (module.end, module.near, module.closing, module.close):
-        os.close(descriptor)
+# --- a bus on which no two channels read the same ---------------------------------------------------------------------
+
+SEALED = ReportSettings(checksum=True)
+DEGREES = (25.1, 26.4, 0.0, 2000.0, 20.0, 20.1, 20.2, 20.3)
+DEGREES_SAID = "+0025.1+0026.4       +9999.9+0020.0+0020.1+0020.2+0020.3"
+VOLTS = (1.5, -1.0, 0.25, 2.0, -2.5, 0.125, 2.5, -0.75)
+MORE_VOLTS = (9.0, -8.0, 7.0, -6.0, 5.0, -4.0, 3.0, -2.0)
+
+MODULES = (
+    module(
+        Model.M_7019R,
+        sources=sources(Unit.CELSIUS, *DEGREES),
+        type_codes=(TypeCode.K,) * 8,
+        channel_mask=0xFB,
+        report_settings=SEALED,
+    ),
+    module(Model.I_7018, sources=sources(Unit.VOLT, *VOLTS), address=0x02, report_settings=SEALED),
+    module(Model.M_7017, sources=sources(Unit.VOLT, *MORE_VOLTS), address=0x03, protocol=Protocol.MODBUS_RTU),
+    module(Model.M_7018, sources=sources(Unit.VOLT, *VOLTS[::-1]), address=0x04, protocol=Protocol.MODBUS_RTU),
+)
+PROFILE = Profile(Model.M_7019R, type_codes=(TypeCode.K,) * 8, checksum=True)
+FIELDS = {
+    0x01: tuple(DEGREES_SAID[at : at + 7] for at in range(0, 56, 7)),
+    0x02: tuple(f"{value:+07.4f}" for value in VOLTS),
+}
+WORDS = {
+    0x03: tuple(round(value / 10 * (32767 if value > 0 else 32768)) % 65536 for value in MORE_VOLTS),
+    0x04: tuple(round(value / 2.5 * (32767 if value > 0 else 32768)) % 65536 for value in VOLTS[::-1]),
+}
+PROFILES = {
+    0x01: PROFILE,
+    0x02: Profile(Model.I_7018, checksum=True),
+    0x03: Profile(Model.M_7017),
+    0x04: Profile(Model.M_7018),
+}
 
 
-def ask_and_wait(path: str, *commands: Any, profile: Profile = PROFILE, policy: Policy = POLICY) -> list[Outcome[Any]]:
+def requests(count: int) -> Iterator[Request]:
+    """All kinds of readings, of any module and channel."""
+    chance = Random(7000)
+    for _ in range(count):
+        address, channel = chance.choice(sorted(PROFILES)), chance.randrange(8)
+        command: AnyCommand = modbus.ReadInputRegisters(address, channel, chance.randint(1, 8 - channel))
+        if address in FIELDS:
+            command = dcon.ReadAnalogInput(address, channel)
+            if chance.random() < 0.2:
+                command = dcon.ReadAnalogInputs(address)
+        yield command, PROFILES[address]
+
+
+def truth(command: Any) -> Answered[Any]:
+    """The answer that the signals give."""
+    match command:
+        case dcon.ReadAnalogInputs(address=address):
+            return Answered(command, dcon.AnalogInputs(FIELDS[address]))
+        case dcon.ReadAnalogInput(address=address, channel=channel):
+            return Answered(command, dcon.AnalogInput(FIELDS[address][channel]))
+        case _:
+            words = WORDS[command.address][command.start : command.start + command.count]
+            return Answered(command, modbus.InputRegisters(command.address, words))
+
+
+# --- the two ways to ask ----------------------------------------------------------------------------------------------
+
+
+def ask_and_wait(path: str, bus: Bus[Any], asked: Sequence[Request]) -> list[Outcome[Any]]:
     with serial.Serial(path) as port:
-        driver = sync_driver.Driver(port, Bus[Any](policy=policy))
-        return [driver.ask(command, profile) for command in commands]
+        driver: Any = sync_driver.Driver(port, bus)
+        return [driver.ask(command, profile) for command, profile in asked]
 
 
-def ask_at_once(path: str, *commands: Any, profile: Profile = PROFILE, policy: Policy = POLICY) -> list[Outcome[Any]]:
+def ask_at_once(path: str, bus: Bus[Any], asked: Sequence[Request]) -> list[Outcome[Any]]:
+    wrong: list[Any] = []
+
     async def ask() -> list[Outcome[Any]]:
+        asyncio.get_running_loop().set_exception_handler(lambda _, context: wrong.append(context))
         with serial.Serial(path) as port:
-            driver = async_driver.Driver(port, Bus[Any](policy=policy))
-            return await asyncio.gather(*(driver.ask(command, profile) for command in commands))
+            driver: Any = async_driver.Driver(port, bus)
+            return list(await asyncio.gather(*(driver.ask(command, profile) for command, profile in asked)))
 
-    return asyncio.run(ask())
+    outcomes: list[Outcome[Any]] = asyncio.run(ask())
+    assert wrong == []
+    return outcomes
 
 
+Ask = Callable[[str, Bus[Any], Sequence[Request]], list[Outcome[Any]]]
 either = pytest.mark.parametrize("ask", [ask_and_wait, ask_at_once])
-either_main = pytest.mark.parametrize("main", [sync_driver.main, async_driver.main])
+FAST = LineSettings(BaudRate.BAUD_115200)
+HASTY = Bus[Any](FAST, Policy(retries=1, turnaround=0.1, grace=0.1))
+
+
+# --- what comes of requests -------------------------------------------------------------------------------------------
 
 
 @either
-def test_requests_of_both_protocols_are_answered(module: Module, ask: Callable[..., list[Outcome[Any]]]) -> None:
-    registers = modbus.InputRegisters(0x01, (1, 2, 3, 4, 5, 6, 7, 8))
-    module.says(INPUTS, f">{LINE}\r".encode())
-    module.says(WORDS, modbus.encode(registers))
-    module.says(dcon.ReadChannelMask(0x01), b"?01\r")
+def test_what_is_read_is_what_is_on_the_inputs(ask: Ask) -> None:
+    asked = list(requests(100))
 
-    outcomes = ask(module.path, INPUTS, WORDS, dcon.ReadChannelMask(0x01), dcon.HostOk(), INPUTS)
+    with running(open_pty, *MODULES) as here:
+        outcomes = ask(here.place, Bus[Any](FAST), asked)
 
-    inputs = Answered(INPUTS, dcon.AnalogInputs(tuple(LINE[at : at + 7] for at in range(0, 56, 7))))
-    refused = Declined(dcon.ReadChannelMask(0x01), dcon.Refused(0x01))
-    assert [inputs, Answered(WORDS, registers), refused, Sent(dcon.HostOk()), inputs] == outcomes
+    assert [truth(command) for command, _ in asked] == outcomes
 
 
-@either
-def test_a_module_that_is_not_there_costs_time_and_nothing_else(
-    module: Module, ask: Callable[..., list[Outcome[Any]]]
-) -> None:
-    module.says(dcon.ReadChannelMask(0x01), b"!01FF\r")
-
-    outcomes = ask(module.path, INPUTS, dcon.ReadChannelMask(0x01))
-
-    assert [TimedOut(INPUTS), Answered(dcon.ReadChannelMask(0x01), dcon.ChannelMask(0x01, 0xFF))] == outcomes
-    assert module.heard == [b"#01\r", b"#01\r", b"$016\r"]
+PATIENT = Policy(retries=3, turnaround=0.1, grace=0.05)
 
 
-@either
-@pytest.mark.parametrize("first", [b"", b"!01FF00\r", b"\xff!01F", b"!02FF3A\r"])
-def test_a_request_is_repeated_when_the_answer_is_lost_or_damaged(
-    module: Module, ask: Callable[..., list[Outcome[Any]]], first: bytes
-) -> None:
-    command = dcon.ReadChannelMask(0x01)
-    module.says(command, first, dcon.seal(b"!01FF", checksum=True), profile=SEALED)
+@frozen
+class Case:
+    """How a line fails, and what a host has to allow for."""
 
-    outcomes = ask(module.path, command, profile=SEALED)
+    faults: Faults
+    policy: Policy = PATIENT
+    echo: bool = False
+    """Whether the host expects to hear itself."""
+    count: int = 100
+    """How many requests it makes: fewer where they take long."""
 
-    assert [Answered(command, dcon.ChannelMask(0x01, 0xFF))] == outcomes
-    assert module.heard == [b"$016BB\r"] * 2
+
+CASES = {
+    "echo": Case(Faults(echo=True), echo=True, count=300),
+    "echo that is not expected": Case(Faults(echo=True), count=300),
+    "lumps": Case(Faults(lumps=True), count=60),
+    "drop": Case(Faults(drop=0.002)),
+    "flip": Case(Faults(flip=0.002)),
+    "noise": Case(Faults(noise=0.3), count=300),
+    "late": Case(Faults(late=0.1, late_by=0.1), Policy(retries=3, turnaround=0.03, grace=0.2), count=60),
+}
 
 
 @either
-def test_a_late_response_is_not_the_answer_to_the_next_request(
-    module: Module, ask: Callable[..., list[Outcome[Any]]]
-) -> None:
-    other = dcon.ReadAnalogInputs(0x02)
-    module.says(INPUTS, b">" + b"+0011.1" * 8 + b"\r")
-    module.says(other, b">" + b"+0022.2" * 8 + b"\r")
-    module.delays[b"#01\r"] = 0.3
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_whatever_the_line_does_nothing_wrong_is_read(ask: Ask, case: Case) -> None:
+    asked = list(requests(case.count))
 
-    outcomes = ask(module.path, INPUTS, other, policy=Policy(retries=0, turnaround=0.1, grace=1.0))
+    with running(open_pty, *MODULES, faults=case.faults, seed=7) as here:
+        outcomes = ask(here.place, Bus[Any](FAST, case.policy, echo=case.echo), asked)
+        faults = [it.faults for it in here.observed if it.faults]
 
-    assert [TimedOut(INPUTS), Answered(other, dcon.AnalogInputs(("+0022.2",) * 8))] == outcomes
+    answered = [outcome for outcome in outcomes if isinstance(outcome, Answered)]
+    assert [command for command, _ in asked] == [outcome.command for outcome in outcomes]
+    assert [truth(outcome.command) for outcome in answered] == answered
+    assert len(answered) >= 0.97 * case.count
+    assert len(faults) > 3 or case.faults == Faults(echo=True)
 
 
 @either
-def test_what_came_before_a_request_is_not_its_answer(
-    module: Module, ask: Callable[..., list[Outcome[Any]]], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_request_has_the_outcome_that_is_its_own(ask: Ask) -> None:
+    asked: list[Request] = [
+        (dcon.ReadChannelMask(0x01), PROFILE),
+        (dcon.SetChannelMask(0x01, 0x0F), PROFILE),
+        (dcon.CalibrateSpan(0x02), PROFILES[0x02]),
+        (NO_SUCH_MODULE, PROFILE),
+        (dcon.HostOk(), PROFILE),
+        (modbus.ReadInputRegisters(0x03, 8, 1), PROFILES[0x03]),
+        (dcon.ReadChannelMask(0x01), PROFILE),
+    ]
+
+    with running(open_pty, *MODULES) as here:
+        outcomes = ask(here.place, HASTY, asked)
+        heard = [it.heard for it in here.observed]
+
+    commands: list[Any] = [command for command, _ in asked]
+    assert outcomes == [
+        Answered(commands[0], dcon.ChannelMask(0x01, 0xFB)),
+        Answered(commands[1], dcon.Acknowledged(0x01)),
+        Declined(commands[2], dcon.Refused(0x02)),
+        TimedOut(commands[3]),
+        Sent(commands[4]),
+        Declined(commands[5], modbus.ExceptionResponse(0x03, 0x04, modbus.ExceptionCode.ILLEGAL_DATA_ADDRESS)),
+        Answered(commands[6], dcon.ChannelMask(0x01, 0x0F)),
+    ]
+    assert heard.count(b"#0F99\r") == 2
+
+
+@either
+def test_a_late_response_is_not_the_answer_to_the_next_request(ask: Ask) -> None:
+    policy = Policy(retries=0, turnaround=0.05, grace=0.3)
+    first, second = dcon.ReadAnalogInput(0x01, 0), dcon.ReadAnalogInput(0x01, 1)
+
+    with running(open_pty, *MODULES, faults=Faults(late=1.0, late_by=0.1)) as here:
+        late_once(here)
+        outcomes = ask(here.place, Bus[Any](FAST, policy), [(first, PROFILE), (second, PROFILE)])
+
+    assert [TimedOut(first), truth(second)] == outcomes
+
+
+def late_once(here: Running) -> None:
+    """Let the line be without faults as soon as it has been late."""
+
+    def observe(observed: Any) -> None:
+        here.simulator.faults = Faults()
+        here.observed.append(observed)
+
+    here.call(lambda: setattr(here.simulator, "observe", observe))
+
+
+@either
+def test_what_came_before_a_request_is_not_its_answer(ask: Ask, monkeypatch: pytest.MonkeyPatch) -> None:
     class Port(serial.Serial):
         """A port in which an answer lies that nobody has asked for."""
 
         def open(self) -> None:
             super().open()
-            os.write(module.end, b"!0100\r")
-            select.select([self], [], [])
+            self.write(b"#010B4\r")
+            while self.in_waiting < len(">+0025.1CC\r"):
+                sleep(0.001)
 
     monkeypatch.setattr(serial, "Serial", Port)
-    module.says(dcon.ReadChannelMask(0x01), b"!01FF\r")
+    command = dcon.ReadAnalogInput(0x01, 1)
 
-    outcomes = ask(module.path, dcon.ReadChannelMask(0x01))
+    with running(open_pty, *MODULES) as here:
+        assert [truth(command)] == ask(here.place, HASTY, [(command, PROFILE)])
 
-    assert [Answered(dcon.ReadChannelMask(0x01), dcon.ChannelMask(0x01, 0xFF))] == outcomes
 
+def test_a_task_that_no_longer_waits_leaves_the_line_to_the_next() -> None:
+    command = dcon.ReadAnalogInput(0x01, 0)
 
-def test_a_task_that_no_longer_waits_leaves_the_line_to_the_next(module: Module) -> None:
-    module.says(dcon.ReadChannelMask(0x01), b"!01FF\r")
-
-    async def give_up_and_ask() -> Outcome[Any]:
-        with serial.Serial(module.path) as port:
-            driver = async_driver.Driver(port, Bus[Any](policy=POLICY))
+    async def give_up_and_ask(path: str) -> Outcome[Any]:
+        with serial.Serial(path) as port:
+            driver = async_driver.Driver(port, HASTY)
             with pytest.raises(asyncio.TimeoutError):
-                await asyncio.wait_for(driver.ask(INPUTS, PROFILE), 0.01)
-            return await driver.ask(dcon.ReadChannelMask(0x01), PROFILE)
+                await asyncio.wait_for(driver.ask(NO_SUCH_MODULE, PROFILE), 0.01)
+            return await driver.ask(command, PROFILE)
 
-    outcome = asyncio.run(give_up_and_ask())
-
-    assert Answered(dcon.ReadChannelMask(0x01), dcon.ChannelMask(0x01, 0xFF)) == outcome
+    with running(open_pty, *MODULES) as here:
+        assert truth(command) == asyncio.run(give_up_and_ask(here.place))
 
 
 def test_a_port_that_goes_away_is_told_to_who_waits() -> None:
     async def lose_the_port() -> None:
         far, near = pty.openpty()
         with serial.Serial(os.ttyname(near)) as port:
-            driver = async_driver.Driver(port, Bus[Any](policy=POLICY))
+            driver = async_driver.Driver(port, HASTY)
             asyncio.get_running_loop().call_later(0.05, os.close, far)
             try:
-                await driver.ask(INPUTS, PROFILE)
+                await driver.ask(NO_SUCH_MODULE, PROFILE)
             finally:
                 await asyncio.sleep(0.3)
                 os.close(near)
@@ -207,47 +290,41 @@ PRINTED = """\
 6 20.2 degC ok
 7 20.3 degC ok
 """
+DECLINED = (
+    "Declined(command=ReadInputRegisters(address=0x03, start=0, count=10), "
+    "response=ExceptionResponse(address=0x03, function=4, exception_code=3))\n"
+)
 
 
-@either_main
-def test_the_programs_print_readings(
-    module: Module, main: Callable[[list[str]], int], capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("main", [sync_driver.main, async_driver.main])
+def test_the_programs_print_readings_or_what_else_came_of_it(
+    main: Callable[[list[str]], int], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    module.says(INPUTS, dcon.seal(f">{LINE}".encode(), checksum=True), profile=SEALED)
+    with running(open_pty, *MODULES) as here:
+        read = main([here.place, "--model", "M-7019R", "--address", "01", "--type", "K", "--checksum"])
+        printed = capsys.readouterr().out
+        declined = main([here.place, "--model", "M-7019Z", "--address", "03", "--modbus", "--baud", "115200"])
 
-    code = main([module.path, "--model", "M-7019R", "--address", "01", "--type", "K", "--checksum"])
-
-    assert (code, capsys.readouterr().out) == (0, PRINTED)
-
-
-@either_main
-def test_the_programs_print_what_else_came_of_it(
-    module: Module, main: Callable[[list[str]], int], capsys: pytest.CaptureFixture[str]
-) -> None:
-    module.says(WORDS, modbus.seal(b"\x01\x84\x02"))
-
-    code = main([module.path, "--model", "M-7019R", "--modbus", "--baud", "115200"])
-
-    assert code == 1
-    assert capsys.readouterr().out == (
-        "Declined(command=ReadInputRegisters(address=0x01, start=0, count=8), "
-        "response=ExceptionResponse(address=0x01, function=4, exception_code=2))\n"
-    )
+    assert (read, printed) == (0, PRINTED)
+    assert (declined, capsys.readouterr().out) == (1, DECLINED)
 
 
 @pytest.mark.parametrize("name", ["i7000.examples.sync_driver", "i7000.examples.async_driver"])
 def test_the_programs_can_be_run(
-    module: Module, name: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    name: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    module.says(WORDS, modbus.encode(modbus.InputRegisters(0x01, (0,) * 8)))
-    monkeypatch.setattr(sys, "argv", [name, module.path, "--model", "M-7019R", "--modbus"])
-    monkeypatch.delitem(sys.modules, name)
+    with running(open_pty, *MODULES, faults=Faults(echo=True)) as here:
+        arguments = [here.place, "--model", "M-7018", "--address", "04", "--modbus", "--echo"]
+        monkeypatch.setattr(sys, "argv", [name, *arguments])
+        monkeypatch.delitem(sys.modules, name)
+        with pytest.raises(SystemExit) as ended:
+            runpy.run_module(name, run_name="__main__")
 
-    with pytest.raises(SystemExit) as ended:
-        runpy.run_module(name, run_name="__main__")
-
+    columns = zip(*(line.split() for line in capsys.readouterr().out.splitlines()), strict=True)
+    channels, values, units, statuses = map(list, columns)
     assert ended.value.code == 0
-    assert capsys.readouterr().out == "".join(f"{channel} 0.0 V ok\n" for channel in range(8))
+    assert (channels, units, statuses) == (list("01234567"), ["V"] * 8, ["ok"] * 8)
+    assert pytest.approx(VOLTS[::-1], abs=1e-4) == [float(value) for value in values]
 
 
 @pytest.mark.parametrize("driver", [sync_driver, async_driver], ids=lambda driver: driver.__name__)

@@ -53,6 +53,7 @@ COIL = modbus.WriteSingleCoil(0x01, 2, value=True)
 COIL_WIRE = modbus.encode(COIL)
 COIL_ANSWER = Answered(COIL, modbus.SingleCoilWritten(0x01, 2, value=True))
 WORDS = modbus.ReadInputRegisters(0x01, 0, 2)
+WORD = modbus.ReadInputRegisters(0x01, 0, 1)
 WORDS_WIRE = modbus.encode(modbus.InputRegisters(0x01, (1, 2)))
 
 
@@ -298,14 +299,12 @@ def test_an_answer_that_is_cut_off_is_noise_at_the_deadline() -> None:
     assert (Noise(b"!01F", Fault.TERMINATOR), TimedOut(READ)) == wake(bus, due(bus))[1]
 
 
-def test_an_answer_held_back_by_noise_is_found_at_the_deadline() -> None:
+def test_an_echo_held_back_by_noise_is_found_at_the_deadline_with_the_answer_after_it() -> None:
     beginning = WORDS_WIRE[:2] + b"\x40"  # of a longer response
-    bus, nothing = hear(ask(idle(), WORDS), beginning + WORDS_WIRE)
+    bus, nothing = hear(ask(idle(echo=True), WORDS), beginning + modbus.encode(WORDS) + WORDS_WIRE)
 
     assert nothing == ()
-    assert (Noise(beginning, Fault.LENGTH), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))) == wake(
-        bus, due(bus)
-    )[1]
+    assert (Noise(beginning, Fault.CRC), Answered(WORDS, modbus.InputRegisters(0x01, (1, 2)))) == wake(bus, due(bus))[1]
 
 
 def test_what_is_heard_before_anything_was_sent_is_no_answer() -> None:
@@ -545,6 +544,21 @@ def test_each_try_has_its_echo() -> None:
     bus, nothing = hear(bus, COIL_WIRE, now=due(bus))
 
     assert ((Transmit(COIL_WIRE),), (TimedOut(COIL),)) == (repeated, nothing)
+
+
+@pytest.mark.parametrize(
+    ("echo", "before"),
+    [(True, modbus.encode(WORD)), (False, modbus.encode(WORD)), (False, b"\x01\x04"), (False, b"\x01\x03\x20")],
+    ids=["echo", "echo that is not expected", "noise", "noise like the start of a long frame"],
+)
+def test_an_answer_is_taken_when_it_is_whole_whatever_is_before_it(before: bytes, *, echo: bool) -> None:
+    """Read as one of both sides, the answer of one register could become a request, which has a byte more."""
+    heard = before + modbus.encode(modbus.InputRegisters(0x01, (7,)))
+
+    at_once = hear(ask(idle(echo=echo), WORD), heard)[1]
+    one_by_one = hear(ask(idle(echo=echo), WORD), *(bytes((byte,)) for byte in heard))[1]
+
+    assert Answered(WORD, modbus.InputRegisters(0x01, (7,))) == at_once[-1] == one_by_one[-1]
 
 
 def test_a_broadcast_has_an_echo_too() -> None:

@@ -1,4 +1,4 @@
-"""The package against programs that nobody here wrote: tshark, pymodbus, modbus-tk, minimalmodbus."""
+"""The package against programs that nobody here wrote: tshark, mbpoll, pymodbus, modbus-tk, minimalmodbus, pyserial."""
 
 import os
 import shutil

@@ -10,12 +10,15 @@ from hypothesis import strategies as st
 
 from i7000 import DataFormat, DecodeError, EncodeError, ModbusDataFormat, Reading, Status, TypeCode, Unit
 from i7000.readings import (
+    are_fields,
     decode_engineering_word,
     decode_field,
     decode_word,
     encode_engineering_word,
     encode_field,
+    encode_fields,
     encode_word,
+    is_field,
 )
 from i7000.strategies import readings, word_readings
 
@@ -271,3 +274,47 @@ def test_any_number_is_a_word_or_a_decode_error(number: int, code: TypeCode) -> 
         else:
             with pytest.raises(DecodeError):
                 decode(number, code)
+
+
+# --- reports ----------------------------------------------------------------------------------------------------------
+
+
+def some_readings(code: TypeCode) -> st.SearchStrategy[Reading]:
+    """Readings of all kinds, most of which can be written."""
+    values = st.floats(code.minimum, code.maximum) | st.sampled_from((-1e-9, 0.0, -0.0, nan, inf, 1, 1e9))
+    spoilt = st.builds(Reading, values, st.sampled_from(Unit), st.sampled_from(Status))
+    return st.one_of(
+        values.map(lambda value: Reading(value, code.unit)), readings(code, DataFormat.ENGINEERING), spoilt
+    )
+
+
+@given(st.lists(TYPES, max_size=3) | TYPES.map(lambda code: [code] * 8), FORMATS, st.booleans(), st.data())
+def test_a_report_is_written_as_its_fields_are(
+    types: list[TypeCode],
+    data_format: DataFormat,
+    legacy: bool,  # noqa: FBT001 - drawn
+    data: st.DataObject,
+) -> None:
+    found = tuple(data.draw(some_readings(code)) for code in types)
+    try:
+        alone = [encode_field(it, code, data_format, legacy=legacy) for it, code in zip(found, types, strict=True)]
+    except EncodeError:
+        with pytest.raises(EncodeError):
+            encode_fields(found, tuple(types), data_format, legacy=legacy)
+    else:
+        assert tuple(alone) == encode_fields(found, tuple(types), data_format, legacy=legacy)
+
+
+NUMBERS = ("+01.000", "-1.0000")
+OTHERS = ("+1.", "0000", "+9999", "+9999.9", "       ", "00000+1", "0001.00", "é" * 7)
+
+
+def eight_of(*texts: str) -> st.SearchStrategy[list[str]]:
+    return st.lists(st.sampled_from(texts), min_size=8, max_size=8)
+
+
+@given(eight_of(*NUMBERS, *OTHERS) | eight_of(*NUMBERS))
+def test_fields_are_fields_if_each_is_one_of_the_same_format(texts: list[str]) -> None:
+    each = any(all(is_field(text, data_format, legacy=True) for text in texts) for data_format in DataFormat)
+
+    assert each == are_fields(tuple(texts))

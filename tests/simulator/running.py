@@ -69,8 +69,7 @@ def running(
         return here, loop.create_task(simulator.run())
 
     async def stop(simulator: Simulator, task: asyncio.Task[None]) -> None:
-        if not simulator.ended.done():
-            simulator.ended.set_result(None)
+        simulator.end()
         await opened.aclose()
         await task
 

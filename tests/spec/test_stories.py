@@ -227,3 +227,22 @@ def test_a_story_names_what_its_steps_rest_on(story: Record) -> None:
     assert used - set(story["errata"]) == set()
     assert story["source"] == "manual" or (story["source"] == "assumed") == assumed
     assert story["errata"] == sorted(story["errata"], key=lambda erratum: int(erratum[1:]))
+
+
+PRINTED = [
+    pytest.param(vector, id=vector["id"])
+    for _, vector in lint.vectors("dcon")
+    if vector["source"] == "manual" and "misprint" not in vector["flags"]
+]
+
+
+@pytest.mark.parametrize("vector", PRINTED)
+def test_every_printed_exchange_happens_in_a_story_of_the_manual(vector: Record) -> None:
+    told = [
+        (step["send"]["wire"], step["expect"] and step["expect"]["wire"])
+        for story in lint.stories()
+        if story["source"] == "manual"
+        for step in steps(story, "send")
+    ]
+
+    assert (vector["command_wire"], vector["response_wire"]) in told

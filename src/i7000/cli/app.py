@@ -273,12 +273,23 @@ def registers(
 @app.command
 def simulate(  # noqa: PLR0913 - each of them is an option
     *,
-    model: Annotated[tuple[str, ...], Parameter(help="MODEL[@FIRMWARE][,name=value...]; once for each module.")] = (),
-    pty: Annotated[bool, Parameter(help="On a pseudo-terminal; so it is if nothing is said.", negative="")] = False,
+    model: Annotated[
+        tuple[str, ...],
+        Parameter(help="MODEL[@FIRMWARE][,name=value...]; once for each module.", negative="", show_default=False),
+    ] = (),
+    pty: Annotated[
+        bool, Parameter(help="On a pseudo-terminal; so it is if nothing is said.", negative="", show_default=False)
+    ] = False,
     tcp: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, the bytes as they are.")] = None,
     rfc2217: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, by RFC 2217.")] = None,
-    signal: Annotated[tuple[str, ...], Parameter(help="[ADDRESS:]CHANNELS=SOURCE; what is on the inputs.")] = (),
-    fault: Annotated[tuple[str, ...], Parameter(help="What the line does: echo, lumps, drop=0.01 ...")] = (),
+    signal: Annotated[
+        tuple[str, ...],
+        Parameter(help="[ADDRESS:]CHANNELS=SOURCE; what is on the inputs.", negative="", show_default=False),
+    ] = (),
+    fault: Annotated[
+        tuple[str, ...],
+        Parameter(help="What the line does: echo, lumps, drop=0.01 ...", negative="", show_default=False),
+    ] = (),
     seed: Annotated[int, Parameter(help="Of faults and noise: the same one has the same.")] = 0,
     eeprom: Annotated[Path | None, Parameter(help="A file for what the modules remember without power.")] = None,
     view: Annotated[

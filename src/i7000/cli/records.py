@@ -16,7 +16,7 @@ from i7000.cli.log import Line
 from i7000.cli.words import line_settings_words, mask_words, report_settings_words, type_code_words
 from i7000.message import Message
 
-__all__ = ["Record", "command_record", "empty_record", "line_records", "meaning_record", "message_fields"]
+__all__ = ["Record", "command_record", "empty_record", "explain", "line_records", "meaning_record", "message_fields"]
 
 Record = dict[str, Any]
 
@@ -46,7 +46,7 @@ def meaning_record(meaning: Meaning) -> Record:
         "syntax": message.syntax,
         "command": type(command).__name__ if command else None,
         "fields": {name: _plain(value) for name, value in values.items()},
-        "explained": {name: _explain(message, name, value) for name, value in values.items() if name not in _READ},
+        "explained": {name: explain(message, name, value) for name, value in values.items() if name not in _READ},
         "readings": [_reading(reading) for reading in meaning.readings],
         "errata": list(errata(message)),
         "pause": meaning.pause,
@@ -139,7 +139,8 @@ def _alone(frame: bytes, known: Known) -> tuple[Meaning, ...]:
 # --- fields in words --------------------------------------------------------------------------------------------------
 
 
-def _explain(message: dcon.Message, name: str, value: Any) -> str:  # noqa: ANN401
+def explain(message: dcon.Message, name: str, value: Any) -> str:  # noqa: ANN401
+    """Say the value of a field in words."""
     special = _SPECIAL.get((type(message), name))
     if special is not None:
         return special(value)

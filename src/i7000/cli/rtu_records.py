@@ -17,7 +17,7 @@ from i7000.cli.words import line_settings_words, mask_words, module_name_words, 
 from i7000.modbus.cold_junction import offset_in_celsius
 from i7000.models import AVAILABILITY
 
-__all__ = ["line_records", "meaning_record", "request_record"]
+__all__ = ["explain", "line_records", "meaning_record", "request_record"]
 
 
 def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
@@ -69,7 +69,7 @@ def meaning_record(meaning: Meaning, known: Known) -> Record:
         "command": type(request).__name__ if request else None,
         "fields": {name: _plain(value) for name, value in values.items()},
         "explained": {
-            name: _explain(message, request, name, value)
+            name: explain(message, request, name, value)
             for name, value in values.items()
             if not (touched and name in _READ)
         },
@@ -148,7 +148,8 @@ _READ = ("value", "values")
 """Told as registers."""
 
 
-def _explain(message: modbus.Message, request: modbus.Request[Any] | None, name: str, value: Any) -> str:  # noqa: ANN401
+def explain(message: modbus.Message, request: modbus.Request[Any] | None, name: str, value: Any) -> str:  # noqa: ANN401
+    """Say the value of a field in words; `request` is the one that a response answers."""
     if name == "offset":
         return _offset(getattr(request or message, "channel", None), value)
     if name == "channel" and message.pdu.startswith(("46 2B", "46 2C")):

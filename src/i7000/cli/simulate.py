@@ -15,6 +15,8 @@ from attrs import fields_dict, frozen
 
 from i7000.cli.simulated import read_module, read_signals
 from i7000.cli.text import Printer
+from i7000.cli.traffic import lines
+from i7000.cli.view import View
 from i7000.cli.words import UsageError, near
 from i7000.device import Eeprom
 from i7000.errors import EncodeError, I7000Error
@@ -149,7 +151,8 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
         for place in await _open(simulated, simulator, opened):
             printer.out.out(place, highlight=False)
             printer.out.file.flush()
-        _end_at_signals(simulator)
+        for name in (signal.SIGINT, signal.SIGTERM):
+            asyncio.get_running_loop().add_signal_handler(name, simulator.end)
         simulator.observe = _observer(simulated.view, printer, simulator, opened)
         await simulator.run()
     return 0
@@ -173,23 +176,12 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
     return found
 
 
-def _end_at_signals(simulator: Simulator) -> None:
-    def end() -> None:
-        if not simulator.ended.done():
-            simulator.ended.set_result(None)
-
-    for name in (signal.SIGINT, signal.SIGTERM):
-        asyncio.get_running_loop().add_signal_handler(name, end)
-
-
 def _observer(
     kind: str, printer: Printer, simulator: Simulator, opened: AsyncExitStack
 ) -> Callable[[Observed], None] | None:
     """Show what goes on, in the manner that was asked for."""
     if kind == "none":
         return None
-    from i7000.simulator.view import View, lines  # noqa: PLC0415
-
     if kind == "lines":
         return lambda observed: printer.show(lines(observed))
-    return opened.enter_context(View(simulator.modules, printer.out)).observe
+    return opened.enter_context(View(simulator.modules, printer.out)).show

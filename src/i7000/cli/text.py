@@ -17,7 +17,7 @@ from i7000.cli.dcon import scope
 from i7000.cli.records import Record
 from i7000.cli.words import type_code_words
 
-__all__ = ["Printer", "command_lines", "frame_lines", "register_lines", "request_lines"]
+__all__ = ["Printer", "command_lines", "escaped", "frame_lines", "printable", "register_lines", "request_lines"]
 
 _INDENT = "     "
 
@@ -49,17 +49,25 @@ class Printer:
 
 def _print(console: Console, line: Text) -> None:
     """Print a line as segments: text would be wrapped, or lose its last blanks."""
-    segments = _printable(line, console.encoding).render(console, end="\n")
+    segments = printable(line, console.encoding).render(console, end="\n")
     console.print(Segments(segments), soft_wrap=True, end="")
 
 
-def _printable(text: Text, encoding: str) -> Text:
+def escaped(text: str) -> str:
+    r"""Escape what is no character of a line, and could move a terminal's cursor.
+
+    >>> escaped("\x1b[2J")
+    '\\x1b[2J'
+    """
+    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in text)
+
+
+def printable(text: Text, encoding: str) -> Text:
     """Escape what is no character of a line, or none that can be written."""
     plain = text.plain
     if plain.isascii() and plain.isprintable():
         return text
-    safe = "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in plain)
-    return Text(safe.encode(encoding, "backslashreplace").decode(encoding))
+    return Text(escaped(plain).encode(encoding, "backslashreplace").decode(encoding))
 
 
 def _styled(words: str, style: str) -> Text:

@@ -4,25 +4,36 @@ Laws: a byte that the manual does not define is told as the number it is.
 """
 
 import re
+from collections.abc import Mapping
 from difflib import get_close_matches
 from enum import Enum
+from math import isfinite
+from typing import TypeVar
 
-from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, Model, ReportSettings, TypeCode, dcon
+from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, Model, ReportSettings, TypeCode, Unit, dcon
 
 __all__ = [
     "UsageError",
+    "baud_rate",
+    "channel_numbers",
+    "choice",
+    "hex_byte",
     "integer",
     "line_settings_words",
     "mask_words",
     "member",
     "module_name_words",
     "near",
+    "quantity",
     "report_settings_words",
     "truth",
     "type_code",
     "type_code_words",
     "type_codes",
 ]
+
+
+_T = TypeVar("_T")
 
 
 class UsageError(Exception):
@@ -64,6 +75,17 @@ def truth(text: str) -> bool:
     if text.lower() not in _TRUTH:
         raise UsageError(f"{text!r} is neither true nor false: {', '.join(_TRUTH)}")
     return _TRUTH[text.lower()]
+
+
+def choice(text: str, choices: Mapping[str, _T]) -> _T:
+    """Read one of a few words, in any case.
+
+    >>> choice("RTU", {"dcon": 0, "rtu": 1})
+    1
+    """
+    if text.lower() not in choices:
+        raise UsageError(f"{text!r} is none of {', '.join(choices)}{near(text.lower(), list(choices))}")
+    return choices[text.lower()]
 
 
 def member(text: str, kind: type[Enum]) -> Enum:
@@ -120,6 +142,44 @@ def type_codes(text: str) -> tuple[TypeCode, ...]:
     if unknown:
         raise UsageError(f"type {unknown[0]} of {text!r} is not defined: 00..{max(TypeCode):02X}")
     return tuple(code for code in codes if isinstance(code, TypeCode))
+
+
+_UNITS = {"": None, "v": Unit.VOLT, "mv": Unit.MILLIVOLT, "ma": Unit.MILLIAMPERE} | dict.fromkeys(
+    ("degc", "°c", "c"), Unit.CELSIUS
+)
+_QUANTITY = re.compile(r"([-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?) *([^0-9]*)")
+
+
+def quantity(text: str) -> tuple[float, Unit | None]:
+    """Read a number, and its unit if it has one.
+
+    >>> quantity("1.5"), quantity("-500mV"), quantity("25degC")
+    ((1.5, None), (-500.0, <Unit.MILLIVOLT: 'mV'>), (25.0, <Unit.CELSIUS: 'degC'>))
+    """
+    match = _QUANTITY.fullmatch(text.strip())
+    if not match or match[2].lower() not in _UNITS or not isfinite(float(match[1])):
+        raise UsageError(f"{text!r} is no quantity: a number, and {', '.join(Unit)} or nothing")
+    return float(match[1]), _UNITS[match[2].lower()]
+
+
+def channel_numbers(text: str, count: int, separator: str = ",") -> tuple[int, ...]:
+    """Read which of `count` channels: numbers and ranges, or ``all``.
+
+    >>> channel_numbers("0-2,5", 8), channel_numbers("all", 3)
+    ((0, 1, 2, 5), (0, 1, 2))
+    """
+    if text.lower() == "all":
+        return tuple(range(count))
+    found: list[int] = []
+    for part in text.split(separator):
+        match = re.fullmatch(r"([0-9]{1,3})(?:-([0-9]{1,3}))?", part.strip())
+        if not match:
+            raise UsageError(f"{part!r} is no channel: 0..{count - 1}, a range as 0-{count - 1}, or all")
+        first, last = int(match[1]), int(match[2] or match[1])
+        if not first <= last < count:
+            raise UsageError(f"there is no channel {part}: 0..{count - 1}")
+        found.extend(range(first, last + 1))
+    return tuple(found)
 
 
 # --- values in words --------------------------------------------------------------------------------------------------

@@ -74,7 +74,7 @@ from i7000.dcon.watchdog import (
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.models import AVAILABILITY, Firmware, Model, series
 from i7000.profile import LAST_LEGACY, Profile
-from i7000.readings import Reading, decode_field, decode_fields, encode_field
+from i7000.readings import Reading, decode_field, decode_fields, encode_field, encode_fields
 from i7000.settings import DataFormat
 
 __all__ = [
@@ -376,10 +376,7 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
     values = tuple(values)
     if len(values) != len(profile.type_codes):
         raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
-    return tuple(
-        encode_field(value, type_code, profile.data_format, legacy=profile.legacy_sentinels)
-        for value, type_code in zip(values, profile.type_codes, strict=True)
-    )
+    return encode_fields(values, profile.type_codes, profile.data_format, legacy=profile.legacy_sentinels)
 
 
 def field(value: Reading, channel: int, profile: Profile) -> str:

@@ -130,7 +130,7 @@ class CjcUpdateSetting(Response):
     """Tell whether the cold-junction temperature is being updated.
 
     Wire: ``!AAi``
-    Manual: 2.20; E8.
+    Manual: 2.20; E8, E115.
     """
 
     syntax = "!AAi"
@@ -146,7 +146,7 @@ class ReadCjcUpdate(Command[CjcUpdateSetting]):
 
     Wire: ``$AAA`` -> ``!AAi``
     Models: 7019 series; the same characters are `ReadAnalogInputsHex` for the 7017 series.
-    Manual: 2.20; E8.
+    Manual: 2.20; E8, E115.
     """
 
     syntax = "$AAA"
@@ -160,7 +160,7 @@ class SetCjcUpdate(Command[Acknowledged]):
 
     Wire: ``$AAAi`` -> ``!AA``
     Models: 7019 series.
-    Manual: 2.21; E8.
+    Manual: 2.21; E8, E115.
     """
 
     syntax = "$AAAi"

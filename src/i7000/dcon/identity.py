@@ -154,7 +154,7 @@ class SoftInit(Command[Acknowledged]):
     Wire: ``~AAI`` -> ``!AA``
     Special: `SetSoftInitTimeout` must come first: the time-out is 0 after power-on.
     Models: M-7017mC-16 and 7019 series.
-    Manual: 2.32; E20, E32.
+    Manual: 2.32; E20, E32, E107.
     """
 
     syntax = "~AAI"

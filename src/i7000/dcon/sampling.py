@@ -34,7 +34,7 @@ class SynchronizedData(Response):
 
     Wire: ``>AAS(Data)``
     Shape: `values` as in `AnalogInputs`.
-    Manual: 2.12, 1.11; E15, E24, E25.
+    Manual: 2.12, 1.11; E15, E24, E25, E108.
     """
 
     syntax = ">AAS(Data)"
@@ -56,7 +56,7 @@ class ReadSynchronizedData(Command[SynchronizedData]):
 
     Wire: ``$AA4`` -> ``>AAS(Data)``
     Models: 7019 series.
-    Manual: 2.12; E15.
+    Manual: 2.12; E15, E108.
     """
 
     syntax = "$AA4"

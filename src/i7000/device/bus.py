@@ -76,7 +76,8 @@ class Bus:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
 
         Shape: `signals` are those of each module, in their order.
-        Special: if several answer at once, each bit is 1 where all send 1 (assumption): equal answers look like one.
+        Special: if several answer at once, each bit is 1 where all send 1 (E112, assumption): equal answers look like
+            one.
 
         >>> from i7000 import Model
         >>> from i7000.device import factory, power_on

@@ -22,9 +22,9 @@ __all__ = [
 
 
 def type_code(state: State) -> int:
-    """Tell the type of all channels, or `MIXED` if they differ; also where TT is not used (assumption).
+    """Tell the type of all channels, or `MIXED` if they differ; also where TT is not used (E81).
 
-    Manual: 2.10; E81.
+    Manual: 2.10.
     """
     types = set(state.profile.type_codes)
     return types.pop() if len(types) == 1 else MIXED
@@ -34,7 +34,7 @@ def set_types(state: State, code: TypeCode, channels: Iterable[int] | None = Non
     """Set the type of some channels, or of all; where they cannot differ, of all."""
     types = list(state.eeprom.type_codes)
     if channels is None or not state.profile.individually_configurable:
-        channels = range(len(types))
+        return state.store(type_codes=(code,) * len(types))
     for channel in channels:
         types[channel] = code
     return state.store(type_codes=tuple(types))
@@ -71,7 +71,7 @@ def set_cjc_update(state: State, update: CjcUpdate, signals: Signals) -> State:
     """Start or end the update of the cold junction's temperature, or update it once more.
 
     Special: what it is when the update is stopped, or is made once, stays; stopping it again changes nothing.
-    Manual: 2.21.
+    Manual: 2.21; E115.
     """
     held = state.ram.held_cold_junction
     if update is CjcUpdate.STARTED:

@@ -1,7 +1,8 @@
 """A module that speaks DCON (manual 2): what it tells, what it does, when it refuses and when it is silent.
 
 Laws: a frame that is damaged, not for this module or of a command that it does not have is not answered; a well-formed
-command that it cannot carry out is answered ``?AA``, and changes nothing (E27).
+command that it cannot carry out is answered ``?AA``, and changes nothing (E27). Only ``~**`` is a sign of life of the
+host (E106, assumption).
 """
 
 from collections.abc import Callable
@@ -16,7 +17,7 @@ from i7000.device.changes import (
     set_types,
     type_code,
 )
-from i7000.device.measurement import cold_junction, faults, fields
+from i7000.device.measurement import cold_junction, faults, fields, sample, sampled_fields
 from i7000.device.signals import Signals
 from i7000.device.state import Eeprom, State
 from i7000.errors import DecodeError, EncodeError
@@ -131,13 +132,12 @@ _TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
 
 
 def _tell_sampled(call: _Call) -> tuple[State, dcon.SynchronizedData]:
-    """Tell what was sampled at the last ``#**``, in the data format of now; refuse if there was none."""
+    """Tell what was sampled at the last ``#**``, in the data format of now (E108); refuse if there was none."""
     ram = call.state.ram
     if ram.sampled is None:
         raise _RefusedError
-    response = dcon.SynchronizedData(
-        call.address, first_reading=not ram.sampled_data_told, values=fields(call.state, ram.sampled)
-    )
+    values = sampled_fields(ram.sampled, call.state.profile.data_format)
+    response = dcon.SynchronizedData(call.address, first_reading=not ram.sampled_data_told, values=values)
     return call.state.keep(sampled_data_told=True), response
 
 
@@ -148,7 +148,7 @@ def _set_configuration(call: _Call) -> State:
     """Set the configuration: all at once but line and checksum, which take permission.
 
     Special: the INIT switch allows them for the next power-on, a soft INIT at once; with both, as the switch.
-    Manual: 2.1; E17, E20, E81, E101.
+    Manual: 2.1; E17, E20, E81, E101, E107.
     """
     state, command, ram = call.state, call.command, call.state.ram
     line, report = command.line_settings, command.report_settings
@@ -178,7 +178,7 @@ def _set_protocol(call: _Call) -> State:
 
 
 def _soft_init(call: _Call) -> State:
-    """Allow the next command to change line and checksum for the time that was set before (E20, E32)."""
+    """Allow the next command to change line and checksum for the time that was set before (E20, E32, E107)."""
     return call.state.keep(soft_init_until=call.now + call.state.ram.soft_init_timeout)
 
 
@@ -210,6 +210,6 @@ _DONE: dict[type, Callable[[_Call], State]] = {
 }
 
 _BROADCASTS: dict[type, Callable[[_Call], State]] = {
-    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=it.signals, sampled_data_told=False),
+    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=sample(it.state, it.signals), sampled_data_told=False),
     dcon.HostOk: lambda it: it.state.keep(fed_at=it.now),
 }

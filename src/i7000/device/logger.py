@@ -1,7 +1,7 @@
 """The clock and the data logger of the M-7017mC-16 (manual 3.4.3).
 
 Laws: nothing here knows a module: the clock is an offset to the time that `i7000.device.step` is given, and what is
-recorded is what it is handed. What the manual leaves open is chosen here and marked as an assumption.
+recorded is what it is handed. What the manual leaves open, which is much, is chosen here: E105, E109 to E111.
 """
 
 from collections.abc import Mapping
@@ -13,9 +13,8 @@ from attrs import evolve, frozen
 __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 
 CAPACITY = 1024
-"""Records that the logger has room for (assumption: the manual has no number)."""
+"""Records that the logger has room for (E109, assumption: the manual has no number)."""
 RECORDS_IN_MAP = 6
-RECORD_READINGS = 16
 
 Date = tuple[int, int, int, int, int, int]
 """Year, month, date, hour, minute, second."""
@@ -44,15 +43,15 @@ class Record:
 
 @frozen
 class Log:
-    """The data logger's settings and its records, oldest first; all of it is kept without power (assumption).
+    """The data logger's settings and its records, oldest first; all of it is kept without power (E110).
 
-    Shape: records are counted from 1 on, so that a last index of 0 says that there is none (assumption).
+    Shape: records are counted from 1 on, so that a last index of 0 says that there is none (E105).
     Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
-    Manual: 3.4.3; E73, E74.
+    Manual: 3.4.3; E73, E74, E105, E109, E110, E111.
     """
 
     clock_offset: float = 946_684_800.0
-    """That of a clock that was never set: it begins with the year 2000, the first that it can tell (assumption)."""
+    """That of a clock that was never set: it begins with the year 2000, the first that it can tell (E110)."""
     command: LogCommand = LogCommand.STOP
     overwrite: bool = False
     period: tuple[int, int, int] = (0, 0, 0)
@@ -88,7 +87,7 @@ class Log:
     def planned(self, now: float) -> "Log":
         """Plan the next record after a change of settings or of the clock.
 
-        Time: at once in continuous mode; in period mode at the next whole period after the start (assumption).
+        Time: at once in continuous mode; in period mode at the next whole period after the start (E105, E110).
         """
         clock, start = self.clock(now), moment_of(self.start)
         if self.command is LogCommand.PERIOD and self.seconds:
@@ -103,6 +102,11 @@ class Log:
         if self.command is LogCommand.PERIOD:
             until = min(until, moment_of(self.end))
         return max(0, floor((until - self.next_at) / self.seconds) + 1)
+
+    def resumed(self, now: float) -> "Log":
+        """Leave out what was due without power; the records after it keep to their periods (E110)."""
+        due = self.due(now)
+        return evolve(self, next_at=self.next_at + due * self.seconds) if due else self
 
     def recorded(self, words: tuple[int, ...], due: int) -> "Log":
         """Write the records that are due, as many as there is room for; the oldest make room where that is allowed."""
@@ -119,7 +123,7 @@ class Log:
         )
 
     def set_clock(self, parts: Mapping[str, int], now: float) -> "Log":
-        """Set some parts of the date; a date that the month does not have becomes its last (assumption)."""
+        """Set some parts of the date; a date that the month does not have becomes its last (E111)."""
         date = changed(date_of(self.clock(now)), parts)
         return self.set_epoch(moment_of(date), now)
 

@@ -2,21 +2,32 @@
 
 Laws: every signal has a reading, every reading a field and a word. The model is linear: a thermocouple without
 compensation reads its hot end less the cold junction, and an error of the cold junction is an error of the reading
-(assumption: the manual has no tables of thermocouples). What is asked for again while nothing has changed is
+(E116, assumption: the manual has no tables of thermocouples). What is asked for again while nothing has changed is
 remembered.
 """
 
-from functools import lru_cache
+from collections.abc import Callable
+from functools import lru_cache, partial
+from itertools import chain, repeat
+from typing import TypeVar
 
-from i7000.device.signals import Signal, Signals
-from i7000.device.state import Eeprom, State, profile_of
+from i7000.device.signals import OPEN_WIRE, Signal, Signals
+from i7000.device.state import Eeprom, Inputs, Sample, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
-from i7000.readings import Reading, Status, encode_engineering_word, encode_field, encode_word
+from i7000.readings import (
+    Reading,
+    Status,
+    encode_engineering_word,
+    encode_field,
+    encode_fields,
+    encode_word,
+    make_reading,
+)
 from i7000.settings import CjcUpdate, DataFormat, ModbusDataFormat
 from i7000.type_codes import TypeCode, Unit
 
-__all__ = ["cold_junction", "faults", "fields", "readings", "temperatures", "words"]
+__all__ = ["cold_junction", "faults", "fields", "readings", "sample", "sampled_fields", "temperatures", "words"]
 
 _7018_SERIES, _7019_SERIES = series("7018"), series("7019")
 _MILLIVOLTS = {Unit.MILLIVOLT: 1.0, Unit.VOLT: 1000.0, Unit.MILLIAMPERE: 125.0}
@@ -31,36 +42,39 @@ def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
     """Tell what the channels read, those included that only the single-ended mode has.
 
     Special: a disabled channel is `Status.DISABLED`; beyond the span of the type is over or under range, for voltages
-        and currents too (assumption); an open thermocouple wire is over range where it is looked for (assumption), and
-        else reads as a short circuit does.
-    Manual: 1.3, 1.11; E42, E50, E69, E96.
+        and currents too (E50, assumption); an open thermocouple wire is over range where it is looked for (E69,
+        assumption), and else reads as a short circuit does (E116, assumption).
+    Manual: 1.3, 1.11; E42, E50, E69, E96, E116, E118, E119.
     """
-    return _readings(state.eeprom, _junction(state, signals), signals)
+    return _readings(state.inputs, _junction(state, signals), signals)
 
 
 @lru_cache(_REMEMBERED)
-def _readings(eeprom: Eeprom, junction: float, signals: Signals) -> tuple[Reading, ...]:
-    return tuple(_reading(eeprom, junction, signals, channel) for channel in range(len(eeprom.type_codes)))
-
-
-def _reading(eeprom: Eeprom, junction: float, signals: Signals, channel: int) -> Reading:
-    type_code = eeprom.type_codes[channel]
-    if not eeprom.channel_mask >> channel & 1:
-        return Reading(None, type_code.unit, Status.DISABLED)
-    signal = signals.channel(channel)
-    if type_code.thermocouple:
-        value = _hot(eeprom, signals, signal) - signals.cold_junction + _compensation(eeprom, junction, channel)
-    else:
-        value = _electrical(signal, type_code.unit)
-        if eeprom.model is Model.M_7017RMS:
-            value = abs(value)
-    if value > type_code.maximum:
-        return Reading(None, type_code.unit, Status.OVER_RANGE)
-    if value < type_code.minimum:
-        return Reading(None, type_code.unit, Status.UNDER_RANGE)
-    if eeprom.report_settings.fast_mode:
-        value = _in_twelve_bits(value, type_code)
-    return Reading(value, type_code.unit)
+def _readings(inputs: Inputs, junction: float, signals: Signals) -> tuple[Reading, ...]:
+    eeprom = inputs.eeprom
+    fast_mode, rms = eeprom.report_settings.fast_mode, eeprom.model is Model.M_7017RMS
+    found = []
+    for channel, (type_code, signal) in enumerate(
+        zip(eeprom.type_codes, chain(signals.channels, repeat(OPEN_WIRE)), strict=False)
+    ):
+        unit = type_code.unit
+        if not eeprom.channel_mask >> channel & 1:
+            found.append(Reading(None, unit, Status.DISABLED))
+            continue
+        if type_code.thermocouple:
+            value = _hot(eeprom, signals, signal) - signals.cold_junction + _compensation(eeprom, junction, channel)
+        else:
+            value = signal.value if signal and signal.unit is unit else _electrical(signal, unit)
+            if rms:
+                value = abs(value)
+        if value > type_code.maximum:
+            found.append(Reading(None, unit, Status.OVER_RANGE))
+        elif value < type_code.minimum:
+            found.append(Reading(None, unit, Status.UNDER_RANGE))
+        else:
+            value = _in_twelve_bits(value, type_code) if fast_mode else value
+            found.append(make_reading((value, unit, Status.OK)))
+    return tuple(found)
 
 
 def _electrical(signal: Signal | None, unit: Unit) -> float:
@@ -92,7 +106,7 @@ def _compensation(eeprom: Eeprom, junction: float, channel: int) -> float:
 
 
 def _in_twelve_bits(value: float, type_code: TypeCode) -> float:
-    """Round to the steps of the fast mode, of which the span has 4096 (E96); the last is one step below the top."""
+    """Round to the steps of the fast mode, of which the span has 4096 (E119); the last is one step below the top."""
     low = -type_code.full_scale if type_code.signed_hex else type_code.minimum
     step = (type_code.maximum - low) / _FAST_STEPS
     return low + min(round((value - low) / step), _FAST_STEPS - 1) * step
@@ -134,69 +148,100 @@ def faults(state: State, signals: Signals, channels: int) -> tuple[bool, ...]:
 def fields(state: State, signals: Signals, data_format: DataFormat | None = None) -> tuple[str, ...]:
     """Tell the fields of a report of all channels, in the module's data format or in one that is given.
 
-    Special: a disabled channel is blanks on the 7019 series, and elsewhere 0 (assumption).
+    Special: a disabled channel is blanks on the 7019 series, and elsewhere what a register has (E25, assumption).
     Manual: 1.11, 2.3; E25, E49.
     """
     if data_format is None:
         data_format = state.profile.data_format
-    return _fields(state.eeprom, _junction(state, signals), signals, data_format)
+    return _fields(state.inputs, _junction(state, signals), signals, data_format)
 
 
 @lru_cache(_REMEMBERED)
-def _fields(eeprom: Eeprom, junction: float, signals: Signals, data_format: DataFormat) -> tuple[str, ...]:
-    profile = profile_of(eeprom)
-    told = list(zip(profile.type_codes, _readings(eeprom, junction, signals), strict=False))
-    if eeprom.model not in _7019_SERIES:
-        told = [(code, _zero_if_disabled(reading, code)) for code, reading in told]
-    legacy = profile.legacy_sentinels
-    return tuple([_field(reading, code, data_format, legacy=legacy) for code, reading in told])
+def _fields(inputs: Inputs, junction: float, signals: Signals, data_format: DataFormat) -> tuple[str, ...]:
+    profile = profile_of(inputs.eeprom)
+    types = profile.type_codes
+    told = _readings(inputs, junction, signals)[: len(types)]
+    if profile.model not in _7019_SERIES:
+        told = _zero_if_disabled(told, types)
+    return _written(told, types, data_format, legacy=profile.legacy_sentinels)
 
 
-def _field(value: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool) -> str:
-    """Write a reading, or the end of the span that is nearest to what the format cannot say."""
+def sample(state: State, signals: Signals) -> Sample:
+    """Tell what ``#**`` keeps: the type of each channel, and what it reads."""
+    return tuple(zip(state.profile.type_codes, readings(state, signals), strict=False))
+
+
+def sampled_fields(kept: Sample, data_format: DataFormat) -> tuple[str, ...]:
+    """Tell the fields of what ``#**`` has kept; whatever was set since, but the data format, does not matter.
+
+    Manual: 2.12; E25, E108.
+    """
+    types, told = zip(*kept, strict=True)
+    return _written(told, types, data_format, legacy=False)
+
+
+def _written(
+    told: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool
+) -> tuple[str, ...]:
+    """Write readings, or the ends of the spans that are nearest to what the format cannot say."""
     try:
-        return encode_field(value, type_code, data_format, legacy=legacy)
+        return encode_fields(told, types, data_format, legacy=legacy)
     except EncodeError:
-        return encode_field(_clamped(value, type_code), type_code, data_format)
+        return _clamped(partial(encode_field, data_format=data_format, legacy=legacy), told, types)
 
 
 def words(state: State, signals: Signals) -> tuple[int, ...]:
     """Tell the registers of the channels, in the Modbus data format.
 
-    Special: a disabled channel is 0 (assumption).
-    Manual: 3.2, 3.5; E83, E97.
+    Special: a disabled channel is 0, or the lower end of a type that begins above it (E97, assumption).
+    Manual: 3.2, 3.5; E83, E97, E118.
     """
-    return _words(state.eeprom, _junction(state, signals), signals)
+    return _words(state.inputs, _junction(state, signals), signals)
 
 
 @lru_cache(_REMEMBERED)
-def _words(eeprom: Eeprom, junction: float, signals: Signals) -> tuple[int, ...]:
-    told = zip(eeprom.type_codes, _readings(eeprom, junction, signals), strict=True)
-    write = encode_engineering_word if eeprom.modbus_data_format is ModbusDataFormat.ENGINEERING else _hex_word
-    return tuple([write(_zero_if_disabled(reading, code), code) for code, reading in told])
-
-
-def _hex_word(value: Reading, type_code: TypeCode) -> int:
+def _words(inputs: Inputs, junction: float, signals: Signals) -> tuple[int, ...]:
+    types = inputs.eeprom.type_codes
+    engineering = inputs.eeprom.modbus_data_format is ModbusDataFormat.ENGINEERING
+    told = _zero_if_disabled(_readings(inputs, junction, signals), types)
+    write = encode_engineering_word if engineering else encode_word
     try:
-        return encode_word(value, type_code)
+        return tuple(map(write, told, types))
     except EncodeError:
-        return encode_word(_clamped(value, type_code), type_code)
+        return _clamped(write, told, types)
 
 
-def _zero_if_disabled(value: Reading, type_code: TypeCode) -> Reading:
-    return Reading(max(0.0, type_code.minimum), value.unit) if value.status is Status.DISABLED else value
+def _zero_if_disabled(told: tuple[Reading, ...], types: tuple[TypeCode, ...]) -> tuple[Reading, ...]:
+    return tuple(
+        [
+            Reading(max(0.0, code.minimum), code.unit) if reading.status is Status.DISABLED else reading
+            for reading, code in zip(told, types, strict=True)
+        ]
+    )
 
 
-def _clamped(value: Reading, type_code: TypeCode) -> Reading:
-    """Put the end of the span in the place of a range error that has no word: hex, voltages and currents (E46)."""
-    return Reading(type_code.maximum if value.status is Status.OVER_RANGE else type_code.minimum, value.unit)
+_Written = TypeVar("_Written", str, int)
+
+
+def _clamped(
+    write: Callable[[Reading, TypeCode], _Written], told: tuple[Reading, ...], types: tuple[TypeCode, ...]
+) -> tuple[_Written, ...]:
+    """Write readings, the nearest end of the span for a range error that has no word: hex, voltages, currents (E46)."""
+    written = []
+    for reading, type_code in zip(told, types, strict=True):
+        try:
+            written.append(write(reading, type_code))
+        except EncodeError:
+            end = type_code.maximum if reading.status is Status.OVER_RANGE else type_code.minimum
+            written.append(write(Reading(end, reading.unit), type_code))
+    return tuple(written)
 
 
 _OUT_OF_RANGE_DEGREES = {Status.OVER_RANGE: 0x7FFF, Status.UNDER_RANGE: -0x8000, Status.DISABLED: 0}
 
 
 def temperatures(state: State, signals: Signals) -> tuple[int, ...]:
-    """Tell the registers of whole degrees of the M-7018-16 (30033..); 0 for what is no thermocouple (assumption).
+    """Tell the registers of whole degrees of the M-7018-16 (30033..); 0 for what is no thermocouple (E117).
 
     Manual: 3.4.7.
     """

@@ -35,7 +35,7 @@ def advance(state: State, signals: Signals, now: float) -> State:
     """Let time pass: the host watchdog may time out, the data logger record.
 
     Special: what the logger missed since it was last called, it records with the `signals` of now.
-    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (a time-out of 0 never comes: assumption).
+    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (a time-out of 0 never comes), E106, E114.
     """
     eeprom = state.eeprom
     timeout = eeprom.host_watchdog_timeout

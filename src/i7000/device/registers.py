@@ -34,11 +34,13 @@ __all__ = ["Context", "RequestError", "firmware_bytes", "read", "series_bytes", 
 
 
 class RequestError(Exception):
-    """A request that is answered with an exception."""
+    """A request that is answered with an exception, whose code is its only argument."""
 
-    def __init__(self, code: ExceptionCode) -> None:
-        super().__init__(code)
-        self.code = code
+    @property
+    def code(self) -> ExceptionCode:
+        """The code of the exception."""
+        code: ExceptionCode = self.args[0]
+        return code
 
 
 class Context(NamedTuple):
@@ -70,20 +72,26 @@ def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register,
     return found
 
 
-def _places(state: State, area: Area, asked: range, forbidden: Access) -> list[tuple[Register, int]]:
-    """Find the rows of some addresses, and which of their items they are.
+@lru_cache(maxsize=1024)
+def _spans(
+    model: Model, firmware: str, area: Area, asked: range, forbidden: Access
+) -> tuple[tuple[Register, int], ...]:
+    """Find the rows of some addresses, and which of their items is the first that is meant.
 
     Errors: `RequestError` 02 where the first, or one between, is not there for this access; 03 where only the last is
         not, there being too many.
     Manual: 3.1, 3.2; E94, E99.
     """
-    places = _map_of(state.eeprom.model, state.eeprom.firmware.text)[area]
+    places = _map_of(model, firmware)[area]
     found = [places.get(address) for address in asked]
     there = [place is not None and place[0].access is not forbidden for place in found]
     if not all(there):
         too_many = there[0] and not there[-1]
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE if too_many else ExceptionCode.ILLEGAL_DATA_ADDRESS)
-    return [place for place in found if place]
+    spans: dict[str, tuple[Register, int]] = {}
+    for row, at in filter(None, found):
+        spans.setdefault(row.name, (row, at))
+    return tuple(spans.values())
 
 
 # --- reading ----------------------------------------------------------------------------------------------------------
@@ -93,18 +101,17 @@ def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, 
     """Read coils, inputs or registers: the state after it, and what they hold.
 
     Special: reading the reset status ends it. Log records are read whole.
-    Errors: `RequestError`, see `_places`; 03 for a part of a log record.
+    Errors: `RequestError`, see `_spans`; 03 for a part of a log record.
     """
-    found: list[int] = []
-    words: dict[str, tuple[int, ...]] = {}
-    for row, at in _places(context.state, area, asked, Access.WRITE):
-        if row.name not in words:
-            if row.kind is Kind.RECORD and (at % Kind.RECORD.width or len(asked) % Kind.RECORD.width):
-                raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
-            words[row.name] = _words_of(row, context)
-        found.append(words[row.name][at])
-    state = context.state.keep(reset_status_told=True) if "reset_status" in words else context.state
-    return state, tuple(found)
+    state, eeprom = context.state, context.eeprom
+    found: tuple[int, ...] = ()
+    for row, at in _spans(eeprom.model, eeprom.firmware.text, area, asked, Access.WRITE):
+        if row.kind is Kind.RECORD and (at % Kind.RECORD.width or len(asked) % Kind.RECORD.width):
+            raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
+        found += _words_of(row, context)[at : at + len(asked) - len(found)]
+        if row.name == "reset_status":
+            state = state.keep(reset_status_told=True)
+    return state, found
 
 
 def _words_of(row: Register, context: Context) -> tuple[int, ...]:
@@ -126,7 +133,7 @@ def series_bytes(model: Model) -> bytes:
 
 
 def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
-    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (assumption).
+    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption).
 
     Manual: 3.3.7; E67, E75.
     """
@@ -135,7 +142,7 @@ def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
 
 
 def _records(context: Context) -> list[int]:
-    """Tell the records from the read index on; where there is none, zeros (assumption)."""
+    """Tell the records from the read index on; where there is none, zeros (E109)."""
     words: list[int] = []
     for record in context.eeprom.log.window():
         if record is None:
@@ -215,29 +222,36 @@ def write(context: Context, area: Area, start: int, items: Sequence[int]) -> Sta
     """Write coils or registers.
 
     Special: one register of a number of two keeps the other as it is.
-    Errors: `RequestError`, see `_places`; 03 for what a row cannot hold (E94).
+    Errors: `RequestError`, see `_spans`; 03 for what a row cannot hold (E94).
     """
-    state, now = context.state, context.now
-    asked = range(start, start + len(items))
-    written: dict[str, tuple[Register, dict[int, int]]] = {}
-    for (row, at), item in zip(_places(state, area, asked, Access.READ), items, strict=True):
-        written.setdefault(row.name, (row, {}))[1][at] = item
-    values = {name: _values(row, new, context) for name, (row, new) in written.items()}
-    clock = {name.removeprefix("rtc_"): values.pop(name)[0] for name in sorted(values) if name in _CLOCK_NAMES}
-    for name, new_values in values.items():
-        state = _WRITE[name](context._replace(state=state, values=new_values))
+    state, signals, now = context.state, context.signals, context.now
+    asked, eeprom = range(start, start + len(items)), context.eeprom
+    values: dict[str, tuple[Any, ...]] = {}
+    clock: dict[str, int] = {}
+    done = 0
+    for row, at in _spans(eeprom.model, eeprom.firmware.text, area, asked, Access.READ):
+        new = items[done : done + row.count - at]
+        done += len(new)
+        of_row = _values(row, at, new, context)
+        if row.name in _CLOCK_PARTS:
+            clock[_CLOCK_PARTS[row.name]] = of_row[0]
+        else:
+            values[row.name] = of_row
+    for name, of_row in values.items():
+        state = _WRITE[name](Context(state, signals, now, of_row))
     return state.store(log=state.eeprom.log.set_clock(clock, now)) if clock else state
 
 
-_CLOCK_NAMES = frozenset(f"rtc_{part}" for part in DATE_PARTS)
+_CLOCK_PARTS = {f"rtc_{part}": part for part in DATE_PARTS}
 """Parts of one date, which together must be a day that there is."""
 
 
-def _values(row: Register, new: dict[int, int], context: Context) -> tuple[Any, ...]:
-    """Tell the values of all items of a row after a write, if it can hold them."""
-    words = list((0,) * row.count if row.access is Access.WRITE else _words_of(row, context))
-    for at, item in new.items():
-        words[at] = item
+def _values(row: Register, at: int, new: Sequence[int], context: Context) -> tuple[Any, ...]:
+    """Tell the values of all items of a row after a write from its item `at` on, if it can hold them."""
+    words: list[int] = list(new)
+    if len(new) != row.count:
+        words = list(_words_of(row, context))
+        words[at : at + len(new)] = new
     profile, big_endian = context.state.profile, context.eeprom.big_endian
     try:
         values = values_of(row, tuple(words), 0, row.count // row.kind.width, profile, big_endian=big_endian)

@@ -4,17 +4,18 @@ Laws: what survives a power cycle is in `Eeprom`, all else in `Ram`; both are fr
 too. A `State` always has the profile that its bytes are read with.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
 
-from attrs import evolve, field, frozen
+from attrs import Attribute, evolve, field, fields_dict, frozen
 
 from i7000.dcon import SetModuleName
 from i7000.device.logger import Log
-from i7000.device.signals import Signals
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
+from i7000.readings import Reading
 from i7000.settings import (
     BaudRate,
     CjcUpdate,
@@ -26,10 +27,10 @@ from i7000.settings import (
 )
 from i7000.type_codes import TypeCode
 
-__all__ = ["NEWEST", "Eeprom", "Ram", "State", "factory", "power_on"]
+__all__ = ["NEWEST", "Eeprom", "Inputs", "Ram", "Sample", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
-"""The latest firmware that the manual names: what a module has that is not said to have another (assumption)."""
+"""The latest firmware that the manual names: what a module has that is not said to have another (E113)."""
 
 
 def inputs_of(model: Model) -> int:
@@ -37,7 +38,57 @@ def inputs_of(model: Model) -> int:
     return model.single_ended_channels or model.channels
 
 
-@frozen(cache_hash=True)
+# --- what is kept without power ---------------------------------------------------------------------------------------
+
+Check = Callable[["Eeprom", "Attribute[Any]", Any], None]
+
+
+def _within(low: int, high: int) -> Check:
+    def check(_: "Eeprom", attribute: "Attribute[Any]", value: int) -> None:
+        if not low <= value <= high:
+            raise EncodeError(attribute.name, value, f"{low}..{high}", "3.4")
+
+    return check
+
+
+def _one_each(check: Check | None = None) -> Check:
+    def check_all(eeprom: "Eeprom", attribute: "Attribute[Any]", values: tuple[int, ...]) -> None:
+        inputs = inputs_of(eeprom.model)
+        if len(values) != inputs:
+            raise EncodeError(attribute.name, values, f"{inputs} of them: {eeprom.model.value}", "1.3")
+        if check:
+            for value in values:
+                check(eeprom, attribute, value)
+
+    return check_all
+
+
+def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: int) -> None:
+    most = (1 << inputs_of(eeprom.model)) - 1
+    if not 0 <= mask <= most:
+        raise EncodeError(attribute.name, mask, f"0..{most}", "3.4")
+
+
+def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
+    SetModuleName(0, name)  # which refuses what no module can be named
+
+
+def _check_protocol(eeprom: "Eeprom", attribute: "Attribute[Any]", protocol: Protocol) -> None:
+    if protocol not in eeprom.model.protocols:
+        raise EncodeError(attribute.name, protocol, f"DCON: {eeprom.model.value} has no Modbus", "1.12")
+
+
+def _check_line(_: "Eeprom", attribute: "Attribute[Any]", line: LineSettings) -> None:
+    if not isinstance(line.baud_rate, BaudRate):
+        raise EncodeError(attribute.name, line, "a baud rate code of 03..0A", "1.11")
+
+
+def _check_report(_: "Eeprom", attribute: "Attribute[Any]", report: ReportSettings) -> None:
+    if not isinstance(report.data_format, DataFormat) or report.reserved:
+        raise EncodeError(attribute.name, report, "a data format of 0..2, no reserved bits", "1.11")
+
+
+@frozen(slots=False)  # so that a copy is one dictionary
 class Eeprom:
     """What a module remembers without power: the factory's settings where nothing else is said.
 
@@ -48,33 +99,33 @@ class Eeprom:
 
     model: Model
     firmware: Firmware
-    type_codes: tuple[TypeCode, ...]
-    report_settings: ReportSettings
-    name: str
-    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (assumption)."""
-    protocol: Protocol
-    channel_mask: int
-    channel_offsets: tuple[int, ...]
+    type_codes: tuple[TypeCode, ...] = field(validator=_one_each())
+    report_settings: ReportSettings = field(validator=_check_report)
+    name: str = field(validator=_check_name)
+    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
+    protocol: Protocol = field(validator=_check_protocol)
+    channel_mask: int = field(validator=_check_mask)
+    channel_offsets: tuple[int, ...] = field(validator=_one_each(_within(-0x80, 0x7F)))
     """Tenths of a degree: CJC offsets of the 7018 series, temperature offsets of the 7019 series (E62)."""
-    channel_cjc_offsets: tuple[int, ...]
+    channel_cjc_offsets: tuple[int, ...] = field(validator=_one_each(_within(-0x1000, 0x1000)))
     """Hundredths of a degree, 7019 series only (40353..)."""
     open_wire_detection: bool
-    address: int = 1
-    line_settings: LineSettings = LineSettings()  # noqa: RUF009 - frozen
+    address: int = field(default=1, validator=_within(0, 0xFF))
+    line_settings: LineSettings = field(default=LineSettings(), validator=_check_line)
     single_ended: bool = False
     modbus_data_format: ModbusDataFormat = ModbusDataFormat.HEX
-    cjc_offset: int = 0
+    cjc_offset: int = field(default=0, validator=_within(-0x1000, 0x1000))
     """Hundredths of a degree."""
     cjc_enabled: bool = True
     host_watchdog_enabled: bool = False
-    host_watchdog_timeout: int = 0
+    host_watchdog_timeout: int = field(default=0, validator=_within(0, 0xFF))
     """Tenths of a second."""
     host_watchdog_timed_out: bool = False
-    host_watchdog_timeouts: int = 0
-    """How often it has timed out (40492); kept without power, as the status is (assumption)."""
+    host_watchdog_timeouts: int = field(default=0, validator=_within(0, 0xFFFF))
+    """How often it has timed out (40492); kept without power, as the status is (E114)."""
     host_watchdog_mode: bool = False
     """Coil 00260, which means nothing to modules without outputs (E30)."""
-    response_delay: int = 0
+    response_delay: int = field(default=0, validator=_within(0, 30))
     """Milliseconds, by Modbus."""
     sampling_rate_8_hz: bool = True
     """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""
@@ -82,55 +133,45 @@ class Eeprom:
     log: Log = field(default=Log(), hash=False)
 
     def __attrs_post_init__(self) -> None:
-        inputs = inputs_of(self.model)
-        self._check_numbers(inputs)
-        self._check_kinds()
-        SetModuleName(self.address, self.name)  # which refuses what no module can be named
-        for name in ("type_codes", "channel_offsets", "channel_cjc_offsets"):
-            if len(getattr(self, name)) != inputs:
-                raise EncodeError(name, getattr(self, name), f"{inputs} of them: {self.model.value}", "1.3")
-        if self.protocol not in self.model.protocols:
-            raise EncodeError("protocol", self.protocol, f"DCON: {self.model.value} has no Modbus", "1.12")
-        profile = profile_of(self)  # which refuses types that the channels cannot have, but not those of no channel now
+        self.check_types(profile_of(self))  # which refuses a mode or format that the model does not have
+
+    def check_types(self, profile: Profile) -> None:
+        """Refuse types of the channels that the connecting mode does not have; those of the others, `profile` refused.
+
+        Errors: `EncodeError`.
+        """
         if not all(map(profile.supports, self.type_codes[profile.channels :])):
             raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
-    def _check_numbers(self, inputs: int) -> None:
-        limits = {
-            "address": (0, 0xFF),
-            "channel_mask": (0, (1 << inputs) - 1),
-            "cjc_offset": (-0x1000, 0x1000),
-            "host_watchdog_timeout": (0, 0xFF),
-            "host_watchdog_timeouts": (0, 0xFFFF),
-            "response_delay": (0, 30),
-        }
-        for name, (low, high) in limits.items():
-            _check_number(name, getattr(self, name), low, high)
-        for offset in self.channel_offsets:
-            _check_number("channel_offsets", offset, -0x80, 0x7F)
-        for offset in self.channel_cjc_offsets:
-            _check_number("channel_cjc_offsets", offset, -0x1000, 0x1000)
 
-    def _check_kinds(self) -> None:
-        if not isinstance(self.line_settings.baud_rate, BaudRate):
-            raise EncodeError("line_settings", self.line_settings, "a baud rate code of 03..0A", "1.11")
-        if not isinstance(self.report_settings.data_format, DataFormat) or self.report_settings.reserved:
-            raise EncodeError(
-                "report_settings", self.report_settings, "a data format of 0..2, no reserved bits", "1.11"
-            )
+_STORED = fields_dict(Eeprom)
+_OF_PROFILE = frozenset({
+    "firmware", "type_codes", "single_ended", "report_settings", "modbus_data_format",
+})  # fmt: skip
+"""What the profile depends on, beside the model."""
+_OF_READINGS = _OF_PROFILE | {
+    "channel_mask", "channel_offsets", "channel_cjc_offsets", "open_wire_detection", "cjc_offset", "cjc_enabled",
+}  # fmt: skip
+"""What readings depend on, however they are told."""
+_Frozen = TypeVar("_Frozen")
 
 
-def _check_number(name: str, value: int, low: int, high: int) -> None:
-    if not low <= value <= high:
-        raise EncodeError(name, value, f"{low}..{high}", "3.4")
+def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
+    """Copy a frozen value with changes, which are not checked: what is frozen is its own dictionary."""
+    fields = vars(value) | changes
+    if len(fields) != len(vars(value)):
+        raise TypeError(f"{type(value).__name__} has no {fields.keys() - vars(value).keys()}")
+    copy = object.__new__(type(value))
+    object.__setattr__(copy, "__dict__", fields)
+    return copy
 
 
 def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
     """Tell what a module remembers that comes from the factory.
 
     Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
-        has type 0E, the first that it can have (assumption).
-    Manual: 1.9; E35, E83, E95.
+        has type 0E, the first that it can have (E35, assumption).
+    Manual: 1.9; E35, E83, E95, E113.
 
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
     ('7018', 'MODBUS_RTU', 32)
@@ -142,7 +183,7 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
         firmware=NEWEST if firmware is None else firmware,
         type_codes=(model.default_type or TypeCode.J,) * inputs,
         report_settings=ReportSettings(fast_mode=model.fast_mode_default),
-        name=(model.series + model.suffix.replace("-", ""))[:6],
+        name=(model.series + model.suffix.replace("-", "")).upper()[:6],
         protocol=max(model.protocols),
         channel_mask=(1 << inputs) - 1,
         channel_offsets=zeros,
@@ -151,7 +192,13 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
     )
 
 
-@frozen
+Sample = tuple[tuple[TypeCode, Reading], ...]
+"""The type of each channel and what it read, at one moment."""
+
+# --- what is not ------------------------------------------------------------------------------------------------------
+
+
+@frozen(slots=False)
 class Ram:
     """What a module forgets without power.
 
@@ -170,19 +217,32 @@ class Ram:
     """Whether the switch is set now (E17)."""
     fed_at: float
     """When the host watchdog last heard of the host."""
-    sampled: Signals | None = None
-    """What was on the inputs at the last ``#**``."""
+    sampled: Sample | None = None
+    """What the channels read at the last ``#**``."""
     sampled_data_told: bool = False
     calibration_enabled: bool = False
     soft_init_timeout: int = 0
     """Seconds."""
     soft_init_until: float | None = None
-    """Until when line and checksum can be changed."""
+    """Until when line and checksum can be changed (E107)."""
     cjc_update: CjcUpdate = CjcUpdate.STARTED
-    """Not kept without power: power-on starts the update, the default (assumption)."""
+    """Not kept without power: power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
     """The cold junction's temperature when its update ended, in degrees Celsius."""
     reset_status_told: bool = False
+
+
+# --- a module with power ----------------------------------------------------------------------------------------------
+
+
+@frozen(eq=False)
+class Inputs:
+    """The EEPROM as it was when something was last changed in it that readings depend on.
+
+    Special: it is equal to itself only, so that it can be looked up without a look at what is in it.
+    """
+
+    eeprom: Eeprom
 
 
 @frozen
@@ -198,16 +258,37 @@ class State:
     def _profile(self) -> Profile:
         return profile_of(self.eeprom, checksum=self.ram.checksum)
 
+    inputs: Inputs = field(eq=False, repr=False, kw_only=True)
+
+    @inputs.default
+    def _inputs(self) -> Inputs:
+        return Inputs(self.eeprom)
+
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
-        """Change the EEPROM."""
-        return State(evolve(self.eeprom, **changes), self.ram)
+        """Change the EEPROM.
+
+        Errors: `EncodeError` for what no module can have stored; only what changes is looked at.
+        """
+        if "model" in changes:  # by which nearly everything is measured
+            return State(evolve(self.eeprom, **changes), self.ram)
+        eeprom = _copied(self.eeprom, changes)
+        for name, value in changes.items():
+            stored = _STORED[name]
+            if stored.validator:
+                stored.validator(eeprom, stored, value)
+        profile = self.profile
+        if not _OF_PROFILE.isdisjoint(changes):
+            profile = profile_of(eeprom, checksum=self.ram.checksum)
+            eeprom.check_types(profile)
+        inputs = self.inputs if _OF_READINGS.isdisjoint(changes) else Inputs(eeprom)
+        return State(eeprom, self.ram, profile=profile, inputs=inputs)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
         """Change the RAM."""
-        ram = evolve(self.ram, **changes)
-        if ram.checksum != self.ram.checksum:
-            return State(self.eeprom, ram)
-        return State(self.eeprom, ram, profile=self.profile)
+        ram = _copied(self.ram, changes)
+        same = ram.checksum == self.ram.checksum
+        profile = self.profile if same else profile_of(self.eeprom, checksum=ram.checksum)
+        return State(self.eeprom, ram, profile=profile, inputs=self.inputs)
 
     def switched(self, *, init_switch: bool) -> "State":
         """Move the INIT switch, or INIT* terminal, while the power is on (E17)."""
@@ -228,7 +309,8 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
     """Give power to a module; with a running one's EEPROM, a power cycle.
 
     Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
-    Manual: 1.12.2, A.1; E101.
+        Without power the data logger has recorded nothing.
+    Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
     >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
@@ -243,7 +325,8 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
         init_switch=init_switch,
         fed_at=now,
     )
-    return State(eeprom, ram)
+    log = eeprom.log.resumed(now)
+    return State(eeprom if log is eeprom.log else evolve(eeprom, log=log), ram)
 
 
 def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:

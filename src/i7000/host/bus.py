@@ -18,7 +18,7 @@ from attrs import evolve, field, frozen
 from i7000 import dcon, modbus
 from i7000.errors import DecodeError, EncodeError, Noise
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
-from i7000.host.exchange import Exchange, finish, split
+from i7000.host.exchange import Exchange, answers, finish, split
 from i7000.profile import Profile
 from i7000.settings import BaudRate, LineSettings
 
@@ -211,7 +211,18 @@ def _hear(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R],
     if bus.pending and not bus.pending.sent:
         silent = min(now + _silence(bus, bus.pending.exchange), bus.pending.latest)
         bus = evolve(bus, pending=evolve(bus.pending, due=max(bus.pending.due, silent)))
-    return _take(bus, found)
+    bus, events = _take(bus, found)
+    bus, ahead = _take_ahead(bus)
+    return bus, (*events, *ahead)
+
+
+def _take_ahead(bus: Bus[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """Take an answer that is held back by what could still become a longer frame: an echo, noise, the answer itself."""
+    request = bus.pending
+    if not (bus.rest and request and request.sent and request.echoed):
+        return bus, ()
+    found, rest = answers(request.exchange, bus.rest)
+    return _take(evolve(bus, rest=rest), found)
 
 
 def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Event[R], ...]]:

@@ -12,7 +12,7 @@ from i7000.errors import Fault, Noise
 from i7000.host.events import Answered, AnyCommand, Declined
 from i7000.profile import Profile
 
-__all__ = ["Exchange", "finish", "split"]
+__all__ = ["Exchange", "answers", "finish", "split"]
 
 R = TypeVar("R")
 
@@ -118,6 +118,15 @@ def split(last: Exchange[Any] | None, heard: bytes, *, echo: bool) -> tuple[Foun
     if last is not None and last.rtu:
         return modbus.split(heard, _side(echo=echo), last.profile)
     return dcon.split(heard, checksum=last is not None and last.profile.checksum)
+
+
+def answers(pending: Exchange[Any], rest: bytes) -> tuple[Found, bytes]:
+    """Find whole answers to an open request in a rest; if there are none, all of it is still the rest."""
+    if not pending.rtu or not pending.answered:
+        return (), rest
+    command: Any = pending.command
+    found, after = modbus.split(rest, modbus.Side.RESPONSES, pending.profile, request=command)
+    return ((), rest) if all(isinstance(part, Noise) for part in found) else (found, after)
 
 
 def finish(last: Exchange[Any], rest: bytes, *, echo: bool) -> Found:

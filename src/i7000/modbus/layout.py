@@ -67,7 +67,13 @@ def _sequence(kind: type, most: int, accepts: Callable[[Any], bool]) -> Item:
 
 
 def _words(most: int) -> Item:
-    return _sequence(int, most, lambda value: is_int(value, 0, 0xFFFF))
+    def all_words(value: object) -> bool:
+        if not isinstance(value, tuple) or not 1 <= len(value) <= most:
+            return False
+        plain = {int}.issuperset(map(type, value))  # nearly always
+        return 0 <= min(value) <= max(value) <= 0xFFFF if plain else all(is_int(it, 0, 0xFFFF) for it in value)
+
+    return Item(f"a tuple of 1 to {most} items (int)", all_words, fault=Fault.RANGE)
 
 
 def _bits(most: int) -> Item:

@@ -20,19 +20,24 @@ __all__ = ["Access", "Area", "Kind", "Register", "rows"]
 class Area(Enum):
     """A table of addresses: the digit that the manual puts before its numbers."""
 
+    bits: bool
+    """Whether an item is one bit; else it is 16."""
+
     COIL = 0
     DISCRETE_INPUT = 1
     INPUT_REGISTER = 3
     HOLDING_REGISTER = 4
 
-    @property
-    def bits(self) -> bool:
-        """Whether an item is one bit; else it is 16."""
-        return self in (Area.COIL, Area.DISCRETE_INPUT)
+
+for _area in Area:
+    _area.bits = _area in (Area.COIL, Area.DISCRETE_INPUT)
 
 
 class Kind(Enum):
     """How the bits or words of an item are a value."""
+
+    width: int
+    """Items that one value takes."""
 
     BOOL = "bool"
     READING = "reading"
@@ -48,10 +53,9 @@ class Kind(Enum):
     RECORD = "record"
     """16 readings and a time stamp of two registers."""
 
-    @property
-    def width(self) -> int:
-        """Items that one value takes."""
-        return {Kind.UINT32: 2, Kind.RECORD: 18}.get(self, 1)
+
+for _kind in Kind:
+    _kind.width = {Kind.UINT32: 2, Kind.RECORD: 18}.get(_kind, 1)
 
 
 class Access(Enum):

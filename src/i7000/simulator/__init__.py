@@ -1,7 +1,6 @@
 """A simulated bus for drivers to be tried against, without hardware (extra ``simulator``).
 
 Parts: `simulator` is the bus and its hosts, `sources` what is on the inputs, `faults` what the line does, `memory` the
-EEPROMs in a file; `pseudo_terminal`, `tcp` and `rfc2217` lead hosts to the bus, `view` shows what goes on. The command
-``i7000 simulate`` puts them together.
+EEPROMs in a file; `pseudo_terminal`, `tcp` and `rfc2217` lead hosts to the bus. ``i7000 simulate`` puts them together.
 Laws: time, chance and I/O are here; how modules behave is in `i7000.device`.
 """

@@ -54,8 +54,7 @@ class Simulator:
         self.chance = Random(seed)  # noqa: S311 - repeatable
         self.store = store
         self.observe = observe
-        self.ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-        """What `run` waits for; an error of `store` ends it too."""
+        self._ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._epoch = time() - monotonic()
         self._began = self.now
         self._simulated = tuple(modules)
@@ -106,11 +105,11 @@ class Simulator:
         """Make `bus` what there is, and store what has changed in its EEPROMs."""
         changed = any(one.eeprom is not other.eeprom for one, other in zip(bus.modules, self.bus.modules, strict=True))
         self.bus = bus
-        if changed and self.store and not self.ended.done():
+        if changed and self.store and not self._ended.done():
             try:
                 self.store([module.eeprom for module in bus.modules])
             except OSError as error:
-                self.ended.set_exception(error)
+                self._ended.set_exception(error)
 
     def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
         """Tell who observes the line."""
@@ -119,14 +118,19 @@ class Simulator:
             self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults))
 
     async def run(self) -> None:
-        """Let time pass until `ended` is done.
+        """Let time pass until `end` is called.
 
         Errors: `OSError` of `store`.
         """
-        while not self.ended.done():
+        while not self._ended.done():
             self.advance()
-            await asyncio.wait((self.ended,), timeout=_TICK)
-        self.ended.result()
+            await asyncio.wait((self._ended,), timeout=_TICK)
+        self._ended.result()
+
+    def end(self) -> None:
+        """Have `run` return."""
+        if not self._ended.done():
+            self._ended.set_result(None)
 
 
 class Host:

@@ -1,0 +1,302 @@
+"""``i7000 simulate``, as a person and as a script call it."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Thread
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+import serial
+
+from i7000 import Model
+from i7000.cli.simulate import read_faults, read_modules, read_place
+from i7000.cli.words import UsageError
+from i7000.device import factory
+from i7000.simulator.memory import load, save
+from tests.terminal import Run, Told
+
+KELVIN = "M-7019R@B3.7,type=K,protocol=dcon"
+INPUTS = ("--signal", "all=25.1degC")
+SAID = b">" + b"+0025.1" * 8 + b"\r"
+
+
+def free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port: int = server.getsockname()[1]
+        return port
+
+
+def talk(url: str, *frames: bytes) -> list[bytes]:
+    """Say DCON frames as soon as somebody is there, and tell the answers."""
+    deadline = monotonic() + 10
+    while True:
+        try:
+            opened: Any = serial.serial_for_url(url, timeout=2)
+            break
+        except serial.SerialException:
+            assert monotonic() < deadline
+            sleep(0.02)
+    with opened:
+        answers = []
+        for frame in frames:
+            opened.write(frame)
+            answers.append(opened.read_until(b"\r"))
+        return answers
+
+
+def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object]) -> Told:
+    """Call the command, and end it by Ctrl-C when something has been done meanwhile."""
+
+    def do() -> None:
+        try:
+            meanwhile()
+        finally:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    doing = Thread(target=do)
+    doing.start()
+    try:
+        return run("simulate", *arguments)
+    finally:
+        doing.join()
+
+
+def test_modules_are_there_until_ctrl_c(run: Run) -> None:
+    port = free_port()
+    answers = []
+
+    told = simulated(
+        run, "--model", KELVIN, *INPUTS, "--tcp", str(port),
+        meanwhile=lambda: answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r", b"$01M\r")),
+    )  # fmt: skip
+
+    assert (told.code, told.out, told.err) == (0, f"socket://127.0.0.1:{port}\n", "")
+    assert answers == [SAID, b"!017019R\r"]
+
+
+def test_all_ways_to_get_there_lead_to_the_same_modules(run: Run) -> None:
+    tcp, rfc2217 = free_port(), free_port()
+    answers = []
+
+    def meanwhile() -> None:
+        answers.extend(talk(f"socket://127.0.0.1:{tcp}", b"~01OABC\r"))
+        answers.extend(talk(f"rfc2217://127.0.0.1:{rfc2217}", b"$01M\r"))
+
+    told = simulated(
+        run, "--model", KELVIN, "--pty", "--tcp", str(tcp), "--rfc2217", f"localhost:{rfc2217}", meanwhile=meanwhile
+    )
+
+    assert answers == [b"!01\r", b"!01ABC\r"]
+    assert re.fullmatch(rf"/dev/\S+\nsocket://127.0.0.1:{tcp}\nrfc2217://127.0.0.1:{rfc2217}\n", told.out)
+
+
+def test_traffic_can_be_told_line_by_line(run: Run) -> None:
+    port = free_port()
+
+    told = simulated(
+        run, "--model", KELVIN, *INPUTS, "--tcp", str(port), "--view", "lines",
+        meanwhile=lambda: talk(f"socket://127.0.0.1:{port}", b"#01\r"),
+    )  # fmt: skip
+
+    _, asked, answered = told.out.splitlines()
+    assert asked.endswith("#01  ReadAnalogInputs")
+    assert "25.1, 25.1, 25.1, 25.1, 25.1, 25.1, 25.1, 25.1 degC" in answered
+
+
+def test_on_a_terminal_there_is_a_live_view_that_leaves_it_as_it_was(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    port = free_port()
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setenv("TERM", "xterm")
+
+    def meanwhile() -> None:
+        talk(f"socket://127.0.0.1:{port}", b"#01\r")
+        sleep(0.6)
+
+    told = simulated(run, "--model", KELVIN, *INPUTS, "--tcp", str(port), meanwhile=meanwhile)
+
+    assert told.code == 0
+    assert "M-7019R@B3.7" in told.out
+    assert "ReadAnalogInputs" in told.out
+    assert told.out.index("\x1b[?1049h") < told.out.index("\x1b[?1049l")
+    assert told.out.index("\x1b[?25l") < told.out.rindex("\x1b[?25h")
+
+
+def test_faults_are_those_of_the_seed(run: Run) -> None:
+    def answers(*seed: str) -> list[bytes]:
+        port = free_port()
+        told: list[bytes] = []
+        simulated(
+            run, "--model", KELVIN, "--tcp", str(port), "--fault", "flip=0.01", *seed,
+            meanwhile=lambda: told.extend(talk(f"socket://127.0.0.1:{port}", *[b"#01\r"] * 5)),
+        )  # fmt: skip
+        return told
+
+    assert answers("--seed", "7") == answers("--seed", "7") != answers()
+
+
+# --- what is remembered -----------------------------------------------------------------------------------------------
+
+
+def test_a_file_keeps_what_modules_remember(run: Run, tmp_path: Path) -> None:
+    memory, port = tmp_path / "modules.json", free_port()
+    url = f"socket://127.0.0.1:{port}"
+    answers = []
+
+    simulated(
+        run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port),
+        meanwhile=lambda: answers.extend(talk(url, b"~01OABC\r")),
+    )  # fmt: skip
+    simulated(run, "--eeprom", str(memory), "--tcp", str(port), meanwhile=lambda: answers.extend(talk(url, b"$01M\r")))
+
+    assert answers == [b"!01\r", b"!01ABC\r"]
+    assert [eeprom.name for eeprom in load(memory)] == ["ABC"]
+
+
+def test_a_file_is_made_before_anything_is_said(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+
+    simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0", meanwhile=lambda: sleep(0.3))
+
+    assert [eeprom.model for eeprom in load(memory)] == [Model.M_7019R]
+
+
+def test_a_damaged_file_is_refused_and_left_as_it_is(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+    memory.write_text("{", encoding="utf-8")
+
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
+
+    assert (told.code, told.out) == (2, "")
+    assert str(memory) in told.err
+    assert memory.read_text(encoding="utf-8") == "{"
+
+
+def test_a_file_of_other_modules_is_refused(tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+    save(memory, [factory(Model.I_7018)])
+
+    with pytest.raises(UsageError, match=r"holds I-7018@B4.5, not M-7019R@B3.7"):
+        read_modules([KELVIN], [], seed=0, memory=memory)
+
+
+def test_the_init_switch_is_not_in_the_file(tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+    save(memory, [factory(Model.I_7018)])
+
+    (without,) = read_modules([], [], seed=0, memory=memory)
+    (switched,) = read_modules(["I-7018,init=true"], [], seed=0, memory=memory)
+
+    assert (without.init_switch, switched.init_switch) == (False, True)
+
+
+def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(tmp_path / "nowhere" / "modules.json"))
+
+    assert told.code == 2
+    assert "nowhere" in told.err
+
+
+# --- wrong usage ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "no modules: give --model, once for each"),
+        (("--model", "M-7019X"), "M-7019X"),
+        (("--model", KELVIN, "--signal", "nonsense"), "nonsense"),
+        (("--model", KELVIN, "--tcp", "nonsense"), "'nonsense' is no [HOST:]PORT"),
+        (("--model", KELVIN, "--tcp", "65536"), "a port is 0..65535"),
+        (("--model", KELVIN, "--fault", "dropp=1"), "there is no fault 'dropp'"),
+    ],
+)
+def test_what_cannot_be_simulated_is_told(run: Run, arguments: tuple[str, ...], said: str) -> None:
+    told = run("simulate", *arguments)
+
+    assert (told.code, told.out) == (2, "")
+    assert said in told.err
+
+
+def test_a_place_that_is_taken_is_told(run: Run) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        told = run("simulate", "--model", KELVIN, "--tcp", str(server.getsockname()[1]))
+
+    assert (told.code, told.out) == (2, "")
+    assert "in use" in told.err
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("echo=1", "echo has no value"),
+        ("drop", "give a probability: --fault drop=0.01"),
+        ("drop=much", "give a probability"),
+        ("drop=0.1:3", "only late has a time"),
+        ("late=0.1:soon", "give a probability"),
+        ("late=0.1:61", "late_by cannot be 61.0: 0..60"),
+        ("flip=2", "flip cannot be 2.0: 0..1"),
+        ("late_by=1", "there is no fault 'late_by'"),
+    ],
+)
+def test_what_is_no_fault_is_told(text: str, said: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(said)):
+        read_faults([text])
+
+
+def test_faults_add_up() -> None:
+    faults = read_faults(["echo", "lumps", "drop=0.1", "flip=0.2", "noise=0.3", "late=0.4:0.5"])
+
+    assert (faults.echo, faults.lumps, faults.drop, faults.flip) == (True, True, 0.1, 0.2)
+    assert (faults.noise, faults.late, faults.late_by) == (0.3, 0.4, 0.5)
+
+
+def test_only_this_machine_gets_there_unless_another_host_is_said() -> None:
+    assert read_place("socket", "5020").host == "127.0.0.1"
+    assert read_place("socket", "0.0.0.0:5020").host == "0.0.0.0"  # noqa: S104
+
+
+def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "i7000.simulator.rfc2217", None)
+
+    told = run("simulate", "--model", KELVIN, "--rfc2217", "0")
+
+    assert told.code == 2
+    assert 'pip install "i7000[simulator]"' in told.err
+
+
+# --- as a process -----------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def process(*arguments: str) -> Iterator["subprocess.Popen[str]"]:
+    command = [sys.executable, "-c", "import sys; from i7000.cli import main; sys.exit(main())", "simulate"]
+    with subprocess.Popen(  # noqa: S603 - ourselves
+        [*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as started:
+        try:
+            yield started
+        finally:
+            started.kill()
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
+    with process("--model", KELVIN, *INPUTS) as started:
+        assert started.stdout
+        path = started.stdout.readline().strip()
+        answers = talk(path, b"#01\r")
+
+        started.send_signal(ending)
+        rest, errors = started.communicate(timeout=10)
+
+    assert answers == [SAID]
+    assert (started.returncode, rest, errors) == (0, "", "")
+    assert not Path(path).exists()

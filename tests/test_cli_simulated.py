@@ -1,0 +1,437 @@
+"""How simulated modules, and what is connected to them, are said on the command line."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from i7000 import BaudRate, CharacterFormat, DataFormat, Filter, LineSettings, ModbusDataFormat, Model, TypeCode, Unit
+from i7000.cli.simulated import read_module, read_signals
+from i7000.cli.words import UsageError
+from i7000.device import Eeprom, Signal, factory, power_on
+from i7000.settings import Protocol
+from i7000.simulator.sources import (
+    OPEN,
+    Fixed,
+    Noise,
+    Ramp,
+    Recorded,
+    Sine,
+    Source,
+    Sources,
+    default_sources,
+)
+from i7000.strategies import firmwares
+
+
+def module(text: str) -> Eeprom:
+    return read_module(text, 0x01)[0]
+
+
+def refusal(read: Callable[[], object]) -> str:
+    """Why nothing can be read; empty if it can."""
+    try:
+        read()
+    except UsageError as refused:
+        return str(refused)
+    return ""
+
+
+def refusal_of_module(text: str) -> str:
+    return refusal(lambda: module(text)).removeprefix(f"{text!r}: ")
+
+
+# --- modules ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("model", Model)
+def test_a_model_alone_is_the_module_from_the_factory(model: Model) -> None:
+    assert module(model.value) == factory(model)
+
+
+@given(st.sampled_from(Model), firmwares())
+def test_every_firmware_can_be_said(model: Model, firmware: object) -> None:
+    assert str(firmware) == str(module(f"{model.value}@{firmware}").firmware)
+
+
+def test_the_address_is_the_one_given_unless_one_is_said() -> None:
+    assert [read_module(text, 0x07)[0].address for text in ("I-7018", "I-7018,address=02")] == [7, 2]
+
+
+def test_the_init_switch_is_set_where_it_is_said() -> None:
+    assert [read_module(text, 1)[1] for text in ("I-7018", "I-7018,init=true", "I-7018,init=no")] == [
+        False,
+        True,
+        False,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "field", "value"),
+    [
+        ("i-7018@b2.9".upper(), "model", Model.I_7018),
+        ("m-7019r", "model", Model.M_7019R),
+        ("M-7019R,address=0x0a", "address", 0x0A),
+        ("M-7019R, address = ff", "address", 0xFF),
+        ("M-7019R,type=K", "type_codes", (TypeCode.K,) * 8),
+        ("M-7019R,type=K/J/T/05/V_10/ma_4-20/0x0E/B", "type_codes",
+         (TypeCode.K, TypeCode.J, TypeCode.T, TypeCode.V_2_5, TypeCode.V_10, TypeCode.MA_4_20, TypeCode.J, TypeCode.B)),
+        ("M-7017Z,type=" + "/".join(["V_5"] * 10), "type_codes", (TypeCode.V_5,) * 10 + (TypeCode.V_10,) * 10),
+        ("M-7017Z,type=" + "/".join(["V_5"] * 20), "type_codes", (TypeCode.V_5,) * 20),
+        ("M-7019R,protocol=dcon", "protocol", Protocol.DCON),
+        ("M-7019R,protocol=RTU", "protocol", Protocol.MODBUS_RTU),
+        ("I-7018,baud=115200", "line_settings", LineSettings(BaudRate.BAUD_115200)),
+        ("I-7018,baud=1200,character_format=e81", "line_settings",
+         LineSettings(BaudRate.BAUD_1200, CharacterFormat.E81)),
+        ("M-7019R,modbus_format=engineering", "modbus_data_format", ModbusDataFormat.ENGINEERING),
+        ("M-7019R,response_delay=30", "response_delay", 30),
+        ("M-7017Z,protocol=rtu,single_ended=true", "single_ended", True),
+        ("M-7019R,mask=0x3F", "channel_mask", 0x3F),
+        ("M-7019R,mask=0/1/3", "channel_mask", 0b1011),
+        ("M-7019R,mask=0-2/7", "channel_mask", 0b10000111),
+        ("M-7019R,mask=3", "channel_mask", 0b1000),
+        ("M-7017Z,mask=all", "channel_mask", 0xFFFFF),
+        ("M-7019R,name=BOILER", "name", "BOILER"),
+        ("M-7019R,open_wire_detection=false", "open_wire_detection", False),
+        ("M-7019R,cjc_enabled=off", "cjc_enabled", False),
+        ("M-7019R,cjc_offset=-0.29", "cjc_offset", -29),
+        ("M-7019R,cjc_offset=40.96degC", "cjc_offset", 4096),
+        ("M-7019R,channel_offsets=1.5", "channel_offsets", (15,) * 8),
+        ("M-7019R,channel_cjc_offsets=0/1/2/3/4/5/6/0.07", "channel_cjc_offsets", (0, 100, 200, 300, 400, 500, 600, 7)),
+        ("M-7019R,host_watchdog_enabled=yes", "host_watchdog_enabled", True),
+        ("M-7019R,host_watchdog_timeout=2.5", "host_watchdog_timeout", 25),
+    ],
+)  # fmt: skip
+def test_what_is_said_is_what_the_module_remembers(text: str, field: str, value: object) -> None:
+    assert value == getattr(module(text), field)
+
+
+@pytest.mark.parametrize(
+    ("text", "field", "value"),
+    [
+        ("I-7018,checksum=true", "checksum", True),
+        ("I-7018,format=hex", "data_format", DataFormat.HEX),
+        ("I-7018,format=PERCENT", "data_format", DataFormat.PERCENT),
+        ("I-7017R,fast_mode=true", "fast_mode", True),
+        ("I-7017F,fast_mode=false", "fast_mode", False),
+        ("I-7018,filter=50Hz", "filter", Filter.REJECT_50_HZ),
+        ("I-7018,filter=reject_60_hz", "filter", Filter.REJECT_60_HZ),
+    ],
+)
+def test_reports_are_set_by_their_parts(text: str, field: str, value: object) -> None:
+    assert value == getattr(module(text).report_settings, field)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "model cannot be '': I-7017, I-7017F"),
+        ("I-7020", "model cannot be 'I-7020': I-7017"),
+        ("M-7019X", "model cannot be 'M-7019X': I-7019R, M-7019R, M-7019Z"),
+        ("M-7019R@", "firmware cannot be '': a letter, a digit and a minor number"),
+        ("M-7019R@3.7", "firmware cannot be '3.7': a letter"),
+        ("M-7019R,", "'' is not name=value"),
+        ("M-7019R,checksum", "'checksum' is not name=value"),
+        ("M-7019R,adress=2", "a module has no 'adress': address, type, protocol"),
+        ("M-7019R,type=K,type=J", "type is given twice"),
+        ("M-7019R,address=100", "address: '100' is no byte"),
+        ("M-7019R,type=Q", "type: 'Q' is no type"),
+        ("M-7019R,type=mixed", "type: type FF of 'mixed' is not defined"),
+        ("M-7019R,type=K/J", "type: 'K/J' has 2 values: 1 or 8 with / between, M-7019R"),
+        ("M-7017Z,type=V_5/V_5", "type: 'V_5/V_5' has 2 values: 1 or 10 or 20 with / between, M-7017Z"),
+        ("I-7018,type=V_10", "type_codes cannot be '08': 00 01 02"),
+        ("I-7018,type=K/K/K/K/K/K/K/J", "type_codes cannot be"),
+        ("M-7019R,protocol=modbus", "protocol: 'modbus' is none of dcon, rtu"),
+        ("M-7019R,protocol=dkon", "protocol: 'dkon' is none of dcon, rtu; did you mean dcon?"),
+        ("I-7018,protocol=rtu", "protocol cannot be <Protocol.MODBUS_RTU: 1>: DCON: I-7018 has no Modbus"),
+        ("I-7018,baud=14400", "baud: 14400 baud is none of 1200, 2400"),
+        ("I-7018,baud=2", "baud: 2 baud is none of 1200, 2400"),
+        ("I-7018,character_format=E71", "character_format: 'E71' is none of n81, n82, e81, o81"),
+        ("I-7018@B2.8,character_format=E81", "character_format cannot be 'E81': N81 with firmware before B2.9"),
+        ("I-7018,format=decimal", "format: 'decimal' is none of engineering, percent, hex"),
+        ("I-7018,checksum=maybe", "checksum: 'maybe' is neither true nor false"),
+        ("I-7018,fast_mode=true", "fast_mode cannot be True: I-7018 has no fast mode"),
+        ("I-7018,filter=55hz", "filter: '55hz' is none of 50hz, 60hz, reject_60_hz, reject_50_hz"),
+        ("M-7019R@B2.6,filter=50hz", "filter cannot be 'REJECT_50_HZ': REJECT_60_HZ"),
+        ("I-7018,modbus_format=hex", "I-7018 has no modbus_format: M-7000 series only"),
+        ("I-7018,response_delay=1", "I-7018 has no response_delay: M-7000 series only"),
+        ("M-7019R,response_delay=31", "response_delay cannot be 31: 0..30"),
+        ("M-7019R,response_delay=1ms", "response_delay: '1ms' is no number"),
+        ("M-7019R,single_ended=true", "single_ended cannot be True: 7017Z only"),
+        ("M-7019R,mask=0x1FF", "channel_mask cannot be 511: 0..255"),
+        ("M-7019R,mask=8", "mask: there is no channel 8: 0..7"),
+        ("M-7019R,mask=3F", "mask: '3F' is no channel: 0..7, a range as 0-7, or all"),
+        ("M-7019R,name=", "name cannot be ''"),
+        ("M-7019R,name=TOOLONG", "name cannot be 'TOOLONG'"),
+        ("I-7018,open_wire_detection=true", "I-7018 has no open_wire_detection: models that notice"),
+        ("M-7017,cjc_offset=1", "M-7017 has no cjc_offset: 7018 and 7019 series only"),
+        ("I-7018,channel_cjc_offsets=1", "I-7018 has no channel_cjc_offsets: 7019 series only"),
+        ("M-7019R,cjc_offset=0.125", "cjc_offset: '0.125' cannot be: -40.96..40.96 in steps of 0.01 degC"),
+        ("M-7019R,cjc_offset=41", "cjc_offset: '41' cannot be: -40.96..40.96"),
+        ("M-7019R,cjc_offset=1e308", "cjc_offset: '1e308' cannot be: -40.96..40.96"),
+        ("M-7019R,cjc_offset=1mV", "cjc_offset: '1mV' cannot be: -40.96..40.96"),
+        ("M-7019R,channel_offsets=-12.9", "channel_offsets: '-12.9' cannot be: -12.8..12.7 in steps of 0.1 degC"),
+        ("M-7019R,host_watchdog_timeout=25.6", "host_watchdog_timeout: '25.6' cannot be: 0..25.5 in steps of 0.1"),
+        ("M-7019R,host_watchdog_timeout=long", "host_watchdog_timeout: 'long' is no quantity"),
+    ],
+)
+def test_a_module_that_there_is_not_is_refused_with_the_reason(text: str, message: str) -> None:
+    assert refusal_of_module(text).startswith(message)
+
+
+def test_a_refusal_begins_with_what_was_written() -> None:
+    with pytest.raises(UsageError, match=r"^'I-7018,baud=1': baud: "):
+        read_module("I-7018,baud=1", 1)
+
+
+def test_a_misspelt_name_is_told_what_it_is_near() -> None:
+    assert refusal_of_module("I-7018,checksums=true").endswith("; did you mean checksum?")
+
+
+def test_more_modules_than_addresses_are_refused() -> None:
+    with pytest.raises(UsageError, match="address cannot be 256"):
+        read_module("I-7018", 0x100)
+
+
+NAMES = ("address", "type", "protocol", "baud", "format", "filter", "mask", "cjc_offset", "name", "x", "single_ended")
+WORDS = ("02", "K", "K/J", "rtu", "9600", "hex", "50hz", "0x3F", "0/1", "0.5", "1e400", "true", "-1", "")
+SAID = st.builds("{}={}".format, st.sampled_from(NAMES), st.sampled_from(WORDS) | st.text(max_size=4))
+
+
+@given(
+    st.builds(lambda model, said: ",".join((model.value, *said)), st.sampled_from(Model), st.lists(SAID, max_size=4))
+)
+def test_any_settings_are_a_module_or_refused(text: str) -> None:
+    message = refusal(lambda: power_on(module(text), now=0.0))
+
+    assert not message or message.startswith(repr(text))
+
+
+@given(st.text())
+@example("M-7019R@B3.7@")
+def test_any_text_is_a_module_or_refused(text: str) -> None:
+    message = refusal(lambda: power_on(module(text), now=0.0))
+
+    assert not message or message.startswith(repr(text))
+
+
+# --- signals ----------------------------------------------------------------------------------------------------------
+
+VOLTS, AMPERES, DEGREES = factory(Model.I_7017), module("M-7019R,address=0A,type=MA_4_20"), module("I-7018,type=K")
+
+
+def signals(*texts: str, eeprom: Eeprom = VOLTS) -> Sources:
+    (found,) = read_signals(texts, [eeprom])
+    return found
+
+
+def refusal_of_signals(*texts: str) -> str:
+    return refusal(lambda: signals(*texts))
+
+
+def test_what_is_not_said_is_the_default() -> None:
+    assert (default_sources(VOLTS), default_sources(AMPERES)) == read_signals([], [VOLTS, AMPERES])
+
+
+@pytest.mark.parametrize(
+    ("text", "source"),
+    [
+        ("1.5V", Fixed(Signal(1.5, Unit.VOLT))),
+        ("-1.5", Fixed(Signal(-1.5, Unit.VOLT))),
+        (" .5 v ", Fixed(Signal(0.5, Unit.VOLT))),
+        ("500mV", Fixed(Signal(500, Unit.MILLIVOLT))),
+        ("4mA", Fixed(Signal(4, Unit.MILLIAMPERE))),
+        ("25degC", Fixed(Signal(25, Unit.CELSIUS))),
+        ("25°C", Fixed(Signal(25, Unit.CELSIUS))),
+        ("1e-3C", Fixed(Signal(0.001, Unit.CELSIUS))),
+        ("open", OPEN),
+        ("Open", OPEN),
+        ("ramp:0:10:60", Ramp(0, 10, 60, Unit.VOLT)),
+        ("ramp:0V:10V:60s", Ramp(0, 10, 60, Unit.VOLT)),
+        ("ramp:0:10mV:60", Ramp(0, 10, 60, Unit.MILLIVOLT)),
+        ("RAMP:0mV:10:0.5", Ramp(0, 10, 0.5, Unit.MILLIVOLT)),
+        ("sine:5:2.5:3600", Sine(5, 2.5, 3600, Unit.VOLT)),
+        ("sine:5mA:1:10", Sine(5, 1, 10, Unit.MILLIAMPERE)),
+        ("noise:5:0.1", Noise(5, 0.1, Unit.VOLT, seed="0.0.3")),
+        ("noise:5mA:0.1mA", Noise(5, 0.1, Unit.MILLIAMPERE, seed="0.0.3")),
+    ],
+)
+def test_a_source_is_what_was_said(text: str, source: Source) -> None:
+    assert source == signals(f"3={text}").channels[3]
+
+
+@pytest.mark.parametrize(
+    ("text", "channels"),
+    [
+        ("0", {0}),
+        ("0-3", {0, 1, 2, 3}),
+        ("0,2,5", {0, 2, 5}),
+        ("0-1, 7", {0, 1, 7}),
+        ("01:7", {7}),
+        ("0x01:7", {7}),
+        ("ALL", set(range(8))),
+        ("1:all", set(range(8))),
+        (":0", {0}),
+    ],
+)
+def test_channels_are_numbers_ranges_or_all(text: str, channels: set[int]) -> None:
+    found = signals(f"{text}=open").channels
+
+    assert channels == {channel for channel, source in enumerate(found) if source is OPEN}
+
+
+def test_the_cold_junction_has_a_name() -> None:
+    found = signals("cjc=ramp:20:30:60")
+
+    assert Sources(default_sources(VOLTS).channels, Ramp(20, 30, 60, Unit.CELSIUS)) == found
+
+
+def test_a_plain_number_has_the_unit_of_the_type_of_each_channel() -> None:
+    eeprom = module("M-7019R,type=K/V_10/MV_100/MA_4_20/K/K/K/K")
+    found = signals("0-3=5", eeprom=eeprom).at(0).channels[:4]
+
+    assert found == tuple(Signal(5, unit) for unit in (Unit.CELSIUS, Unit.VOLT, Unit.MILLIVOLT, Unit.MILLIAMPERE))
+
+
+def test_later_ones_count() -> None:
+    found = signals("all=1", "2=2", "2-3=open").channels
+
+    assert (Fixed(Signal(1, Unit.VOLT)), OPEN, OPEN) == found[1:4]
+
+
+def test_an_address_selects_the_modules_that_have_it() -> None:
+    found = read_signals(["0A:0=open", "1=open"], [VOLTS, AMPERES, AMPERES])
+
+    assert [sources.channels[0] is OPEN for sources in found] == [False, True, True]
+    assert [sources.channels[1] is OPEN for sources in found] == [True, True, True]
+
+
+def test_each_noise_is_another() -> None:
+    found = read_signals(["all=noise:5mV:1", "cjc=noise:25:1"], [VOLTS, AMPERES], seed=7)
+    noises = {source for sources in found for source in (*sources.channels, sources.cold_junction)}
+
+    assert len(noises) == 18
+
+
+def test_the_same_seed_has_the_same_noise() -> None:
+    first, again, other = (read_signals(["0=noise:5:1"], [VOLTS], seed=seed) for seed in (1, 1, 2))
+
+    assert first == again
+    assert first != other
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "'': it is not [ADDRESS:]CHANNELS=SOURCE"),
+        ("0:1.5V", "'0:1.5V': it is not [ADDRESS:]CHANNELS=SOURCE"),
+        ("02:0=1V", "'02:0=1V': no module has the address 02: 01"),
+        ("xyz:0=1V", "'xyz:0=1V': 'xyz' is no byte"),
+        ("=1V", "'=1V': I-7017 at 01: '' is no channel: 0..7, a range as 0-7, or all; or cjc"),
+        ("8=1V", "'8=1V': I-7017 at 01: there is no channel 8: 0..7; or cjc"),
+        ("3-1=1V", "'3-1=1V': I-7017 at 01: there is no channel 3-1: 0..7"),
+        ("0-999=1V", "'0-999=1V': I-7017 at 01: there is no channel 0-999: 0..7"),
+        ("0=", "'0=': '' is no quantity: a number, and mV, V, mA, degC or nothing"),
+        ("0=1W", "'0=1W': '1W' is no quantity"),
+        ("0=1e999", "'0=1e999': '1e999' is no quantity"),
+        ("0=1:2", "'0=1:2': '1:2' is no quantity"),
+        ("0=rmap:0:1:2", "'0=rmap:0:1:2': 'rmap:0:1:2' is no source: a quantity as 1.5V, ramp:LOW:HIGH:SECONDS"),
+        ("0=ramp:0:1", "'0=ramp:0:1': 'ramp:0:1' is not ramp:LOW:HIGH:SECONDS"),
+        ("0=open:1", "'0=open:1': 'open:1' is not open"),
+        ("0=ramp:0V:1mV:60", "'0=ramp:0V:1mV:60': 0V and 1mV have different units"),
+        ("0=ramp:0:1:60V", "'0=ramp:0:1:60V': '60V' is no time: seconds"),
+        ("0=ramp:0:1:0", "'0=ramp:0:1:0': period cannot be 0.0: more than 0 seconds, Ramp"),
+        ("0=ramp:1:0:1", "'0=ramp:1:0:1': high cannot be 0.0: 1 or more, Ramp"),
+        ("0=sine:0:-1:1", "'0=sine:0:-1:1': amplitude cannot be -1.0: 0 or more, Sine"),
+        ("0=noise:0:-1", "'0=noise:0:-1': deviation cannot be -1.0: 0 or more, Noise"),
+        ("cjc=open", "'cjc=open': cold_junction cannot be None: a temperature in degC"),
+        ("cjc=1V", "'cjc=1V': cold_junction cannot be Signal"),
+        ("cjc=201", "'cjc=201': cold_junction cannot be 201.0: -200..200 degC"),
+        ("0=csv", "'0=csv': 'csv' is not csv:FILE"),
+        ("0=csv:/no/such/file", "'0=csv:/no/such/file': /no/such/file: No such file or directory"),
+        ("0=csv:\0", "'0=csv:\\x00': \0: embedded null byte"),
+    ],
+)  # fmt: skip
+def test_a_signal_that_there_is_not_is_refused_with_the_reason(text: str, message: str) -> None:
+    assert refusal_of_signals(text).startswith(message)
+
+
+def test_a_misspelt_source_is_told_what_it_is_near() -> None:
+    assert refusal_of_signals("0=nois:1:1").endswith("; did you mean noise?")
+
+
+PIECES = st.sampled_from(
+    ("0", "all", "cjc", "=", ":", "open", "ramp", "sine", "noise", "1V", "25", "-", ",", "5mA", "1e308", "degC", "s")
+)
+
+
+@given(st.lists(PIECES | st.text(max_size=3), max_size=10).map("".join).filter(lambda text: "csv" not in text.lower()))
+def test_any_text_is_a_signal_or_refused(text: str) -> None:
+    message = refusal(lambda: signals(text).at(12.3))
+
+    assert not message or message.startswith(repr(text))
+
+
+# --- recordings -------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    file = tmp_path / "a=b:c.csv"
+    file.write_bytes(b"\xef\xbb\xbfseconds,0,1,cold_junction\r\n0,1.5,2.5,25\r\n60,open,3.5,30\r\n")
+    return file
+
+
+def test_a_recording_plays_the_columns_of_the_channels_named(recording: Path) -> None:
+    found = signals(f"0-1=csv:{recording}")
+
+    assert (
+        Recorded((0.0, 60.0), (Signal(1.5, Unit.VOLT), None)),
+        Recorded((0.0, 60.0), (Signal(2.5, Unit.VOLT), Signal(3.5, Unit.VOLT))),
+    ) == found.channels[:2]
+    assert default_sources(VOLTS).channels[2:] == found.channels[2:]
+    assert found.at(60).cold_junction == 25.0
+
+
+def test_a_recording_plays_the_cold_junction_where_it_is_named(recording: Path) -> None:
+    assert [signals(f"cjc=csv:{recording}").at(seconds).cold_junction for seconds in (59.9, 60)] == [25.0, 30.0]
+
+
+def test_a_recording_has_the_units_of_the_types(recording: Path) -> None:
+    assert Signal(1.5, Unit.CELSIUS) == signals(f"0=CSV:{recording}", eeprom=DEGREES).at(0).channel(0)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "line 1: the columns are none: one of them seconds"),
+        (b"seconds,1\n0,1\n", "line 1: the columns are seconds, 1: one of them 0"),
+        (b"seconds,0\n", "line 1: no rows follow"),
+        (b"seconds,0\n0,1\n1,x\n", "line 3: 0 cannot be 'x': a finite number, or open"),
+        (b"seconds,0\n1,1\n1,1\n", "line 3: seconds cannot be 1.0: more than the 1 before"),
+        (b"seconds,0\n0,\xff\n", "'utf-8' codec can't decode byte 0xff"),
+    ],
+)
+def test_a_recording_that_cannot_be_read_is_refused_with_file_and_line(
+    tmp_path: Path, content: bytes, message: str
+) -> None:
+    file = tmp_path / "recording.csv"
+    file.write_bytes(content)
+
+    assert refusal_of_signals(f"0=csv:{file}").startswith(f"'0=csv:{file}': {file}: {message}")
+
+
+def test_a_directory_is_no_recording(tmp_path: Path) -> None:
+    assert refusal_of_signals(f"0=csv:{tmp_path}").endswith(f"{tmp_path}: Is a directory")
+
+
+@given(st.binary(max_size=40))
+def test_any_file_is_a_recording_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
+    file = tmp_path_factory.getbasetemp() / "any.csv"
+    file.write_bytes(b"seconds,0\n" + content)
+    text = f"0=csv:{file}"
+    message = refusal(lambda: signals(text).at(12.3))
+
+    assert not message or message.startswith(f"{text!r}: {file}: ")

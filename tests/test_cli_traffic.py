@@ -1,0 +1,268 @@
+from collections.abc import Sequence
+
+import pytest
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
+
+from i7000 import Fault, Model, Noise, Profile, Protocol, TypeCode, dcon, modbus, strategies
+from i7000.cli.traffic import lines
+from i7000.simulator.observed import Observed
+
+DCON, RTU = Protocol.DCON, Protocol.MODBUS_RTU
+I_7018R = Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8)
+M_7019R = Profile(Model.M_7019R, type_codes=(TypeCode.K,) * 8)
+REPORT = b">+025.12+9999.9-9999.9+000.00+000.00+000.00+000.00+000.00\r"
+
+
+def observed(
+    heard: bytes | Noise,
+    answer: bytes | None = None,
+    profile: Profile | None = I_7018R,
+    faults: Sequence[str] = (),
+    client: str = "127.0.0.1:51234",
+) -> Observed:
+    protocol = DCON if profile is None or profile.model.value.startswith("I") else RTU
+    return Observed(12.345, client, heard, protocol, profile, answer, tuple(faults))
+
+
+def told(*arguments: object, **named: object) -> list[str]:
+    return [line.plain for line in lines(observed(*arguments, **named))]  # type: ignore[arg-type] # passed on
+
+
+def rtu(message: modbus.Message) -> bytes:
+    return modbus.encode(message, M_7019R, force=True)
+
+
+# --- what is told of DCON ---------------------------------------------------------------------------------------------
+
+
+def test_a_command_and_its_answer_are_two_lines_with_readings_in_units() -> None:
+    assert told(b"#01\r", REPORT) == [
+        "    12.345  127.0.0.1:51234  #01  ReadAnalogInputs",
+        f"            {REPORT[:-1].decode()}  AnalogInputs  25.12, OVER_RANGE, UNDER_RANGE, 0, 0, 0, 0, 0 degC",
+    ]
+
+
+def test_a_unit_is_told_once_for_neighbours_that_share_it() -> None:
+    mixed = Profile(Model.I_7019R, type_codes=(TypeCode.K,) * 2 + (TypeCode.V_10,) * 5 + (TypeCode.K,))
+    report = b">+0025.1       +01.000       +02.500+03.000+04.000-9999.9\r"
+
+    _, answer = told(b"#01\r", report, mixed)
+
+    assert answer.endswith("25.1 degC, disabled, 1, disabled, 2.5, 3, 4 V, UNDER_RANGE")
+
+
+def test_one_channel_is_read_in_its_unit() -> None:
+    asked, answer = told(b"#013\r", b">+025.12\r")
+
+    assert asked.endswith("#013  ReadAnalogInput  channel 3")
+    assert answer.endswith(">+025.12  AnalogInput  25.12 degC")
+
+
+def test_fields_are_told_in_words() -> None:
+    _, answer = told(b"$012\r", b"!010E0642\r")
+
+    words = "type_code 0E, thermocouple J, -210..760 degC; line_settings 06, 9600 baud, N81; report_settings 42, hex,"
+    assert f"Configuration  {words}" in answer
+
+
+def test_a_refusal_is_told_by_its_name() -> None:
+    assert told(b"#019\r", b"?01\r")[1] == "            ?01  Refused"
+
+
+def test_silence_of_a_module_that_was_asked_is_told() -> None:
+    assert told(b"#01\r") == ["    12.345  127.0.0.1:51234  #01  ReadAnalogInputs  silence"]
+
+
+def test_what_is_for_no_module_is_told_as_such() -> None:
+    assert told(b"$99M\r", profile=None) == ["    12.345  127.0.0.1:51234  $99M  for no module here"]
+
+
+@pytest.mark.parametrize("frame", [b"#**\r", b"#**77\r"])
+def test_a_command_to_all_modules_is_told_as_such(frame: bytes) -> None:
+    (line,) = told(frame, profile=None)
+
+    assert line.endswith(f"{frame[:-1].decode()}  SynchronizedSampling  to all modules")
+
+
+def test_an_answer_with_another_checksum_setting_is_read_too() -> None:
+    _, answer = told(b"$012\r", dcon.seal(b"!010E0642", checksum=True))
+
+    assert "Configuration" in answer
+
+
+def test_an_answer_that_cannot_be_read_is_shown_with_the_fault() -> None:
+    assert told(b"$012\r", b"!01\x07\r", faults=["flipped a bit", "late by 0.25 s"])[1] == (
+        r"            !01\x07  not understood: character at byte 3; allowed: characters 20h..7Eh"
+        "  [flipped a bit, late by 0.25 s]"
+    )
+
+
+def test_an_answer_to_what_cannot_be_read_is_shown() -> None:
+    asked, answer = told(b"$01\xffZ\r", b"?01\r")
+
+    assert r"$01\xffZ  not understood: character at byte 3" in asked
+    assert answer.strip() == "?01"
+
+
+def test_noise_is_shown_escaped_and_cut() -> None:
+    first, second = (told(Noise(wire, Fault.LEADING), profile=None)[0] for wire in (b"\x1b[2J\xe4", b"\x00" * 1000))
+
+    assert first.endswith(r"\x1b[2J\xe4  no frame: leading")
+    assert second.endswith(r"\x00... (1000 bytes)  no frame: leading")
+
+
+def test_an_answer_to_noise_is_shown() -> None:
+    assert told(Noise(b"x", Fault.LEADING), b"!01\r", None)[1].strip() == "!01"
+
+
+def test_nothing_that_moves_a_cursor_comes_from_a_client_or_a_fault() -> None:
+    (line,) = told(b"$99M\r", profile=None, client="/dev/\x1b[2J\n", faults=["\x07"])
+
+    assert line.endswith(r"/dev/\x1b[2J\n  $99M  for no module here  [\x07]")
+
+
+def test_a_profile_without_types_leaves_readings_as_bytes() -> None:
+    _, answer = told(b"#01\r", REPORT, evolve(I_7018R, type_codes=()))
+
+    assert "not understood: number" in answer
+
+
+# --- what is told of Modbus -------------------------------------------------------------------------------------------
+
+
+def test_registers_are_told_by_name_with_readings_in_units() -> None:
+    asked, answer = told(
+        rtu(modbus.ReadInputRegisters(1, 0, 3)), rtu(modbus.InputRegisters(1, (0x0258, 0x7FFF, 0x8000))), M_7019R
+    )
+
+    assert asked.endswith("01 04 00 00 00 03 B0 0B  ReadInputRegisters  30001..30003 analog_input")
+    assert answer.endswith("InputRegisters  30001..30003 analog_input 25.12284 degC, OVER_RANGE, UNDER_RANGE")
+
+
+def test_what_is_written_is_told_in_units() -> None:
+    frame = rtu(modbus.WriteSingleRegister(1, 488, 100))
+
+    asked, answer = told(frame, frame, M_7019R)
+
+    assert asked.endswith("WriteSingleRegister  40489 host_watchdog_timeout 10 s")
+    assert answer.endswith("SingleRegisterWritten  40489 host_watchdog_timeout 10 s")
+
+
+def test_fields_of_module_settings_are_told_by_name() -> None:
+    request = modbus.ReadTypeCode(1, 2)
+
+    asked, answer = told(rtu(request), rtu(modbus.TypeCodeSetting(1, TypeCode.K)), M_7019R)
+
+    assert asked.endswith("ReadTypeCode  channel 2")
+    assert answer.endswith("TypeCodeSetting  type_code 0F, thermocouple K, -270..1372 degC")
+
+
+def test_an_exception_is_told_in_words() -> None:
+    _, answer = told(rtu(modbus.ReadInputRegisters(1, 0, 3)), rtu(modbus.ExceptionResponse(1, 4, 2)), M_7019R)
+
+    assert answer.endswith("ExceptionResponse  function 04; exception_code 02, illegal data address")
+
+
+def test_registers_that_the_module_does_not_have_are_told_as_such() -> None:
+    (line,) = told(rtu(modbus.ReadInputRegisters(1, 100, 3)), profile=M_7019R)
+
+    assert line.endswith("30101..30103 not in the map  silence")
+
+
+@pytest.mark.parametrize("count", [200, 2000])
+def test_of_many_registers_the_first_are_told(count: int) -> None:
+    (line,) = told(rtu(modbus.ReadCoils(1, 256, count)), profile=M_7019R)
+
+    assert line.endswith("; 00261 host_watchdog_enabled; 00262..00267 not in the map; ...  silence")
+
+
+def test_values_of_what_has_no_name_are_told_as_they_were_sent() -> None:
+    (line,) = told(rtu(modbus.WriteMultipleRegisters(1, 3000, (1, 2, 0xABCD))), profile=M_7019R)
+
+    assert line.endswith("WriteMultipleRegisters  43001..43003 not in the map 0001, 0002, ABCD  silence")
+
+
+def modbus_line(message: modbus.Message | bytes, answer: bytes | None = None) -> list[str]:
+    heard = message if isinstance(message, bytes) else rtu(message)
+    return [line.plain for line in lines(Observed(0.0, "pty", heard, RTU, None, answer))]
+
+
+def test_a_request_for_no_module_here_is_told_by_number() -> None:
+    (line,) = modbus_line(modbus.ReadInputRegisters(9, 0, 2))
+
+    assert line.endswith("ReadInputRegisters  30001..30002; for no module here")
+
+
+def test_a_request_to_all_modules_is_told_as_such() -> None:
+    (line,) = modbus_line(modbus.WriteSingleCoil(0, 259, True))
+
+    assert line.endswith("WriteSingleCoil  00260 1; to all modules")
+
+
+def test_a_request_that_cannot_be_read_is_shown_with_the_fault_and_the_answer() -> None:
+    asked, answer = modbus_line(modbus.seal(b"\x01\x2b"), modbus.seal(b"\x01\xab\x01"))
+
+    assert "01 2B 40 3F  not understood: function at byte 1" in asked
+    assert answer.strip() == "01 AB 01 9E F0"
+
+
+def test_a_response_that_cannot_be_read_is_shown_with_the_fault() -> None:
+    _, answer = told(rtu(modbus.ReadInputRegisters(1, 0, 3)), b"\x01\x04", M_7019R)
+
+    assert answer.strip() == "01 04  not understood: length at byte 2; allowed: 4 to 256 bytes"
+
+
+def test_modbus_noise_is_shown_in_hex_and_cut() -> None:
+    first, answer = (
+        line.plain for line in lines(Observed(0.0, "pty", Noise(b"\x1b" * 90, Fault.CRC), RTU, None, b"x"))
+    )
+
+    assert first.endswith("1B 1B... (90 bytes)  no frame: crc")
+    assert answer.strip() == "78"
+
+
+# --- nothing raises ---------------------------------------------------------------------------------------------------
+
+ANY_HEARD = st.binary(max_size=300) | st.builds(Noise, st.binary(max_size=300), st.sampled_from(Fault))
+
+
+@given(
+    st.builds(
+        Observed,
+        at=st.floats(),
+        client=st.text(),
+        heard=ANY_HEARD | st.binary(max_size=20).map(modbus.seal) | st.binary(max_size=20).map(lambda it: it + b"\r"),
+        protocol=st.sampled_from(Protocol),
+        profile=st.none() | strategies.profiles(),
+        answer=st.none() | st.binary(max_size=300),
+        faults=st.lists(st.text(), max_size=2).map(tuple),
+    )
+)
+def test_whatever_was_on_the_line_is_told_without_control_characters(any_: Observed) -> None:
+    found = list(lines(any_))
+
+    assert len(found) == 1 + (any_.answer is not None)
+    assert all(line.plain.isprintable() for line in found)
+
+
+@given(strategies.dcon.exchanges())
+def test_every_exchange_by_dcon_is_told_by_name(exchange: strategies.dcon.Exchange) -> None:
+    heard = Observed(1.0, "pty", exchange.command_wire, DCON, exchange.profile, exchange.response_wire)
+
+    asked, answered = lines(heard)
+
+    assert f"  {type(exchange.command).__name__}" in asked.plain
+    assert f"  {type(exchange.response).__name__}" in answered.plain or not exchange.profile.type_codes
+
+
+@given(strategies.modbus.exchanges(), st.booleans())
+def test_every_exchange_by_modbus_is_told_by_name(exchange: strategies.modbus.Exchange, known: bool) -> None:  # noqa: FBT001
+    profile = exchange.profile if known or exchange.request.function == 0x46 else None
+    heard = Observed(1.0, "pty", exchange.request_wire, RTU, profile, exchange.response_wire)
+
+    asked, answered = lines(heard)
+
+    assert f"  {type(exchange.request).__name__}" in asked.plain
+    assert f"  {type(exchange.response).__name__}" in answered.plain

@@ -1,0 +1,263 @@
+import io
+import re
+import threading
+from collections.abc import Sequence
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.console import Console
+
+from i7000 import Firmware, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit
+from i7000.cli.view import View
+from i7000.device import Signal, Signals, State, factory, power_on
+from i7000.simulator.observed import Observed
+
+HOT = (Signal(25.12, Unit.CELSIUS), Signal(1500.0, Unit.CELSIUS), Signal(-300.0, Unit.CELSIUS))
+SIGNALS = Signals((*HOT, Signal(5.0, Unit.CELSIUS), Signal(1.5, Unit.VOLT)))
+
+
+def module(model: Model = Model.M_7019R, **settings: Any) -> State:
+    return power_on(evolve(factory(model, Firmware("B3.7")), **settings), now=0.0)
+
+
+MIXED = module(type_codes=(TypeCode.K,) * 4 + (TypeCode.V_10,) * 4, channel_mask=0b1111_0111)
+VOLTS = module(Model.I_7017, report_settings=ReportSettings(checksum=True), address=0x1F)
+EVERY = (MIXED, VOLTS, module(Model.I_7018, host_watchdog_timed_out=True), module(Model.M_7017Z, single_ended=True))
+
+
+def drawn(
+    states: Sequence[State], seen: Sequence[Observed] = (), width: int = 140, height: int = 40, encoding: str = "utf-8"
+) -> list[str]:
+    file = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    console = Console(file=file, width=width, height=height, color_system=None)
+    view = View(lambda: [(state, SIGNALS) for state in states], console)
+    for observed in seen:
+        view.show(observed)
+    console.print(view)
+    file.seek(0)
+    return [line.rstrip() for line in file.read().splitlines()]
+
+
+def heard(frame: bytes = b"#01\r", answer: bytes | None = None, at: float = 1.0, client: str = "pty") -> Observed:
+    return Observed(at, client, frame, Protocol.DCON, Profile(Model.I_7018), answer)
+
+
+# --- the modules ------------------------------------------------------------------------------------------------------
+
+
+def test_a_module_is_a_row_with_its_settings_and_the_readings_of_now() -> None:
+    header, first, second, *_ = drawn([MIXED, VOLTS])
+
+    assert header.split() == ["module", "protocol", "line", "check", "readings"]
+    assert first == (
+        "01  M-7019R@B3.7  RTU       9600 N81  CRC    "
+        "25.1 degC, OVER_RANGE, UNDER_RANGE, disabled, 1.500, 0.000, 0.000, 0.000 V"
+    )
+    assert second.startswith("1F  I-7017@B3.7   DCON      9600 N81  sum    0.000, 0.000,")
+
+
+def test_on_a_narrow_terminal_the_settings_stand_below_the_name() -> None:
+    _, first, second, *_ = drawn([MIXED], width=60)
+
+    assert first.startswith("01  M-7019R@B3.7      25.1 degC,")
+    assert second.startswith("    RTU 9600 N81 CRC  ")
+
+
+def test_the_settings_are_those_of_now_and_not_those_of_after_power_on() -> None:
+    state = MIXED.store(line_settings=LineSettings.from_byte(0x8A), protocol=Protocol.DCON)
+    _, before, *_ = drawn([state])
+    _, after, *_ = drawn([power_on(state.eeprom, now=0.0)])
+
+    assert before.split()[2:6] == ["RTU", "9600", "N81", "CRC"]
+    assert after.split()[2:6] == ["DCON", "115200", "E81", "none"]
+
+
+def test_a_baud_rate_that_no_module_has_is_told_as_its_code() -> None:
+    _, row, *_ = drawn([MIXED.keep(line_settings=LineSettings(0x3F))])
+
+    assert "code 3F N81" in row
+
+
+def test_a_watchdog_that_timed_out_is_marked() -> None:
+    _, row, *_ = drawn([module(host_watchdog_timed_out=True)])
+
+    assert "WATCHDOG TIMED OUT  " in row
+
+
+def test_a_module_in_init_mode_is_marked_and_has_address_00() -> None:
+    _, row, *_ = drawn([power_on(MIXED.eeprom, init_switch=True, now=0.0)])
+
+    assert row.startswith("00  M-7019R@B3.7  DCON")
+    assert "INIT  " in row
+
+
+def test_only_the_channels_of_the_connecting_mode_are_shown() -> None:
+    differential, single_ended = (drawn([module(Model.M_7017Z, single_ended=mode)]) for mode in (False, True))
+
+    assert len(re.findall(r"\d\.\d{3}", "".join(differential))) == 10
+    assert len(re.findall(r"\d\.\d{3}", "".join(single_ended))) == 20
+
+
+def test_modules_that_have_no_room_are_shown_in_a_line_each_and_the_rest_counted() -> None:
+    rows = drawn([module(address=at) for at in range(32)], [heard()] * 30, width=80, height=24)
+
+    assert len(rows) == 24
+    assert [row[:2] for row in rows[:14]] == [f"{at:02X}" for at in range(14)]
+    assert all(len(row) <= 80 for row in rows)
+    assert rows[14] == "and 18 more modules"
+    assert rows[15] == "on the line"
+    assert rows[-1].endswith("silence")
+
+
+def test_a_line_that_is_cut_shows_it() -> None:
+    rows = drawn(EVERY, width=50, height=7)
+
+    assert rows[0] == "01  M-7019R@B3.7  25.1 degC, OVER_RANGE, UNDER_..."
+    assert len(rows[0]) == 50
+
+
+def test_a_bus_without_modules_is_shown() -> None:
+    assert drawn([])[-1] == "on the line: nothing yet"
+
+
+# --- the traffic ------------------------------------------------------------------------------------------------------
+
+
+def test_the_last_that_was_on_the_line_stands_at_the_bottom() -> None:
+    rows = drawn([MIXED], [heard(at=at / 10) for at in range(1000)], height=20)
+
+    assert len(rows) == 20
+    assert [row[:12].strip() for row in rows[-3:]] == ["99.700", "99.800", "99.900"]
+
+
+def test_a_long_line_is_folded_beside_its_time() -> None:
+    rows = drawn([MIXED], [heard(b"$012\r", b"!010E0642\r")], width=60)
+
+    at = next(number for number, row in enumerate(rows) if row.startswith("     1.000"))
+    assert all(row.startswith(" " * 12 + row[12]) for row in rows[at + 1 :])
+    assert len(rows) > at + 2
+
+
+def test_on_a_very_narrow_terminal_lines_are_folded_from_the_left() -> None:
+    rows = drawn([MIXED], [heard(b"$012\r", b"!010E0642\r")], width=30)
+
+    assert "1.000  pty  $012" in rows
+    assert any(row.startswith("!010E0642") for row in rows)
+
+
+def test_no_control_character_reaches_the_terminal() -> None:
+    text = "".join(drawn([MIXED], [heard(b"$\x1b[2J\r", b"\x07\x9b\r", client="\x1b]0;x\x07")]))
+
+    assert text.isprintable()
+    assert r"\x1b[2J" in text
+
+
+def test_what_the_terminal_cannot_write_is_escaped() -> None:
+    rows = drawn([MIXED], [heard(client="/dev/☃")], encoding="ascii")
+
+    assert r"/dev/\u2603" in rows[-1]
+
+
+@given(
+    st.lists(st.sampled_from(EVERY), max_size=12),
+    st.integers(0, 40),
+    st.integers(1, 160),
+    st.integers(1, 40),
+)
+def test_a_view_fits_every_terminal(states: list[State], frames: int, width: int, height: int) -> None:
+    seen = [heard(b"$012\r", b"!010E0642\r", at=at) for at in range(frames)]
+
+    rows = drawn(states, seen, width, height)
+
+    assert len(rows) <= height
+    assert all(len(row) <= width for row in rows)
+
+
+# --- live -------------------------------------------------------------------------------------------------------------
+
+
+class Terminal(io.StringIO):
+    """A terminal that counts how often it is drawn on."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.written = threading.Event()
+
+    def flush(self) -> None:
+        super().flush()
+        if "ReadAnalogInputs" in self.getvalue():
+            self.written.set()
+
+
+def live(terminal: io.StringIO, *, force_terminal: bool = True) -> View:
+    console = Console(file=terminal, force_terminal=force_terminal, width=100, height=30, legacy_windows=False)
+    return View(lambda: [(MIXED, SIGNALS)], console)
+
+
+def test_what_is_shown_appears_and_the_terminal_is_left_as_it_was() -> None:
+    terminal = Terminal()
+    with live(terminal) as view:
+        view.show(heard())
+        appeared = terminal.written.wait(5)
+    text = terminal.getvalue()
+
+    assert appeared
+    assert "M-7019R@B3.7" in text
+    assert text.count("\x1b[?1049h") == text.count("\x1b[?1049l") == 1
+    assert text.count("\x1b[?25l") == text.count("\x1b[?25h")
+    assert text.rindex("\x1b[?1049l") > text.rindex("ReadAnalogInputs")
+    assert text.rindex("\x1b[?25h") > text.rindex("ReadAnalogInputs")
+
+
+def test_the_terminal_is_left_as_it_was_after_an_error_too() -> None:
+    terminal = Terminal()
+    with pytest.raises(KeyboardInterrupt), live(terminal):
+        raise KeyboardInterrupt
+
+    assert terminal.getvalue().endswith("\x1b[?25h\x1b[?1049l")
+
+
+def test_it_is_drawn_four_times_a_second_at_most() -> None:
+    terminal = Terminal()
+    began = monotonic()
+    with live(terminal) as view:
+        while monotonic() < began + 1.1:
+            view.show(heard())
+            sleep(0.001)
+    took = monotonic() - began
+
+    assert 2 <= terminal.getvalue().count("on the line") <= 2 + 4 * took
+
+
+def test_a_terminal_that_is_stopped_holds_up_nobody() -> None:
+    going_on = threading.Event()
+    stopped = threading.Event()
+
+    class Stopped(io.StringIO):
+        def write(self, text: str) -> int:
+            if threading.current_thread() is not threading.main_thread():
+                stopped.set()
+                going_on.wait(10)
+            return super().write(text)
+
+    with live(Stopped()) as view:
+        assert stopped.wait(5)
+        began = monotonic()
+        for _ in range(1000):
+            view.show(heard())
+        took = monotonic() - began
+        going_on.set()
+
+    assert took < 1
+
+
+def test_nothing_is_written_to_what_is_no_terminal() -> None:
+    file = io.StringIO()
+    with live(file, force_terminal=False) as view:
+        view.show(heard())
+
+    assert file.getvalue() == ""
