@@ -1,1 +1,1 @@
-"""Speed, as ratios within one run: ``python -m tests.benchmarks``."""
+"""Speed, as ratios within one run, and a simulated bus under load: ``python -m tests.benchmarks``."""

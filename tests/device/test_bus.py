@@ -1,6 +1,11 @@
 """Several modules on one pair of wires."""
 
+from collections.abc import Iterable
+
 import pytest
+from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
 
 from i7000 import (
     BaudRate,
@@ -17,9 +22,13 @@ from i7000 import (
     dcon,
     modbus,
 )
-from i7000.device import Bus, Ear, Heard, Signals, Uart
+from i7000.device import Bus, Ear, Heard, Log, LogCommand, Signals, State, Uart, power_on, step
 from i7000.device.uart import hear_at
+from i7000.strategies.dcon import frames as dcon_frames
+from i7000.strategies.modbus import chunkings
+from i7000.strategies.modbus import frames as modbus_frames
 from tests.device.driver import bench
+from tests.device.test_properties import NOW, any_frames, signals, states
 
 
 def bus(**modules: Model) -> Bus:
@@ -229,3 +238,76 @@ def test_what_passes_a_wrong_parity_is_answered_in_a_parity_that_is_wrong_for_th
 
     answer = b">" + b"+0.0000" * 8 + b"\r"
     assert [hear_at(answer, Uart(9600), Uart(9600, parity="E"))] == [heard.answer for heard in told]
+
+
+# --- what holds for every bus -----------------------------------------------------------------------------------------
+
+
+@st.composite
+def buses(draw: st.DrawFn) -> Bus:
+    """Modules at any addresses, of which several may be the same."""
+    modules = []
+    for state in draw(st.lists(states(), min_size=1, max_size=5)):
+        log = draw(st.sampled_from((Log(), Log(command=LogCommand.CONTINUOUS, period=(0, 0, 1), overwrite=True))))
+        eeprom = evolve(state.eeprom, address=draw(st.integers(0, 0x11)), log=log)
+        modules.append(power_on(eeprom, init_switch=state.ram.init_switch, now=NOW))
+    return Bus(tuple(modules))
+
+
+def sent_to(bus: Bus) -> st.SearchStrategy[bytes]:
+    """Frames to its modules, damaged ones, frames to nobody, broadcasts and noise."""
+    to_modules = st.sampled_from(bus.modules).flatmap(any_frames)
+    unknown = st.builds(lambda module: modbus.seal(bytes((module.ram.address, 0x63, 0))), st.sampled_from(bus.modules))
+    return st.one_of(
+        to_modules,
+        to_modules,
+        unknown,
+        dcon_frames(),
+        modbus_frames(modbus.Side.REQUESTS),
+        st.sampled_from((b"#**\r", b"~**\r", modbus.encode(modbus.WriteSingleRegister(0, 487, 5)))),
+    )
+
+
+def lived_through(bus: Bus, ear: Ear, pieces: Iterable[bytes], on: Signals) -> tuple[list[Heard], Bus]:
+    """Hear pieces and the silence after them; tell the frames, and what became of the modules."""
+    each = [on] * len(bus.modules)
+    told: list[Heard] = []
+    for piece in pieces:
+        bus, ear, heard = bus.hear(ear, piece, each, NOW)
+        told += heard
+    bus, _, heard = bus.silence(ear, each, NOW)
+    return [it for it in (*told, *heard) if not isinstance(it.frame, Noise)], bus
+
+
+@given(st.data(), buses(), signals())
+def test_any_pieces_give_the_same_frames_in_the_same_order_and_the_same_modules(
+    data: st.DataObject, bus: Bus, on: Signals
+) -> None:
+    wire = b"".join(data.draw(st.lists(sent_to(bus), max_size=6)))
+
+    whole = lived_through(bus, Ear(), [wire], on)
+
+    assert whole == lived_through(bus, Ear(), [bytes((byte,)) for byte in wire], on)
+    assert whole == lived_through(bus, Ear(), data.draw(chunkings(wire)), on)
+
+
+@given(st.data(), buses(), signals())
+def test_nothing_that_a_host_sends_at_any_line_settings_raises(data: st.DataObject, bus: Bus, on: Signals) -> None:
+    uart = Uart(data.draw(st.sampled_from((300, 9600, 19200, 115200))), parity=data.draw(st.sampled_from("NEOMS")))
+    wire = b"".join(data.draw(st.lists(sent_to(bus), max_size=6)))
+
+    told, after = lived_through(bus, Ear(uart), data.draw(chunkings(wire)), on)
+
+    assert len(bus.modules) == len(after.modules)
+    assert all(heard.module is not None for heard in told if heard.answer is not None)
+
+
+@given(st.data(), buses(), signals(), st.floats(0, 1e6))
+def test_who_is_not_asked_only_notices_the_time(data: st.DataObject, bus: Bus, on: Signals, later: float) -> None:
+    frame = data.draw(sent_to(bus))
+
+    after, answer = bus.step(frame, [on] * len(bus.modules), NOW + later)
+
+    alone: list[tuple[State, bytes | None]] = [step(module, frame, on, NOW + later) for module in bus.modules]
+    assert [state for state, _ in alone] == list(after.modules)
+    assert (answer is None) == all(own is None for _, own in alone)

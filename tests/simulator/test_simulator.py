@@ -16,9 +16,10 @@ from attrs import evolve
 from i7000 import BaudRate, LineSettings, Model, Noise, Profile, Protocol, Unit, modbus
 from i7000.device import Eeprom, Signal
 from i7000.simulator.faults import Faults
+from i7000.simulator.observed import Observed
 from i7000.simulator.pseudo_terminal import open_pty
 from i7000.simulator.rfc2217 import Rfc2217Connection
-from i7000.simulator.simulator import Simulator
+from i7000.simulator.simulator import Host, Simulator
 from i7000.simulator.sources import Fixed, Sources
 from i7000.simulator.tcp import Connection, listen
 from tests.simulator.running import Running, Transport, module, running
@@ -107,6 +108,38 @@ def test_a_frame_that_could_be_longer_is_heard_when_the_line_is_silent() -> None
 
     assert modbus.encode(modbus.ChannelMaskResult(1, 0)) == answer
     assert [Noise] == [type(it.heard) for it in observed[1:]]
+
+
+def test_a_frame_that_follows_an_answer_in_another_protocol_is_heard_at_once() -> None:
+    """With the carriage return before it, the address of this frame is the function of a longer one."""
+    modules = module(Model.I_7018), module(Model.M_7017, protocol=Protocol.MODBUS_RTU, address=0x10)
+    answers: list[bytes] = []
+    observed: list[Observed] = []
+
+    async def converse() -> None:
+        host = Host(Simulator(modules, observe=observed.append), "host", answers.append)
+        host.receive(b"$01M\r")
+        host.receive(modbus.encode(modbus.ReadModuleName(0x10)))
+
+    asyncio.run(converse())
+
+    assert answers == [b"!017018\r", modbus.encode(modbus.ModuleName(0x10, b"\0\x70\x17\0"))]
+    assert [it.protocol for it in observed] == [Protocol.DCON, Protocol.MODBUS_RTU]
+
+
+def test_what_comes_after_a_frame_that_is_answered_is_not_silence() -> None:
+    modules = module(Model.I_7018), module(Model.M_7017, protocol=Protocol.MODBUS_RTU, address=0x20)
+    asked = modbus.encode(modbus.ReadModuleName(0x20))
+    answers: list[bytes] = []
+
+    async def converse() -> None:
+        host = Host(Simulator(modules), "host", answers.append)
+        host.receive(b"$01M\r" + asked[:2])
+        host.receive(asked[2:])
+
+    asyncio.run(converse())
+
+    assert answers == [b"!017018\r", modbus.encode(modbus.ModuleName(0x20, b"\0\x70\x17\0"))]
 
 
 def test_the_response_delay_is_waited_for() -> None:

@@ -1,23 +1,24 @@
 """Several modules on one pair of wires, of whatever models and protocols; what hosts send, in whatever pieces.
 
 Laws: a frame is heard once it is whole, by every module whose protocol and line settings it is in; any chunking of what
-a host sends gives the same frames in the same order.
+a host sends gives the same frames in the same order, where modules are set to its line: others hear a pause as such.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import zip_longest
 from typing import NamedTuple
 
 from attrs import evolve, field, frozen
 
 from i7000 import dcon, modbus
-from i7000.device.module import step
+from i7000.device.module import advance, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.device.uart import Uart, hear_at
 from i7000.errors import Noise
 from i7000.profile import Profile
-from i7000.settings import Protocol
+from i7000.settings import LineSettings, Protocol
 
 __all__ = ["Bus", "Ear", "Heard"]
 
@@ -44,6 +45,10 @@ class Ear:
     def waiting(self) -> bool:
         """Whether there is something of which only silence can tell that it is whole."""
         return any(reception.protocol is Protocol.MODBUS_RTU for reception, _ in self.rests)
+
+    def ends_with(self, frame: bytes | Noise) -> bool:
+        """Whether all that waits for silence ends with a frame, so that nothing came after it."""
+        return self.waiting and all(isinstance(frame, bytes) and rest.endswith(frame) for _, rest in self.rests)
 
 
 @frozen
@@ -82,6 +87,9 @@ class Bus:
         """
         after, answers = [], []
         for module, own in zip(self.modules, signals, strict=True):
+            if not _hears(module, frame):
+                after.append(advance(module, own, now))
+                continue
             state, answer = step(module, frame, own, now)
             after.append(state)
             if answer is not None:
@@ -105,13 +113,24 @@ class Bus:
         rests = dict(ear.rests)
         found: list[tuple[Reception, bytes | Noise]] = []
         left = []
-        for reception in dict.fromkeys(_reception(module, ear) for module in self.modules):
+        for reception in dict.fromkeys([_reception(module, ear) for module in self.modules]):
             heard = data if ear.uart is None or reception.uart is None else hear_at(data, ear.uart, reception.uart)
             parts, rest = _split(reception, rests.get(reception, b"") + heard)
             found += [(reception, part) for part in parts]
             if rest:
                 left.append((reception, rest))
+        if len(data) > 1 and _is_mixed(found):
+            return self._hear_in_turn(ear, data, signals, now)
         return self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
+
+    def _hear_in_turn(
+        self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
+    ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
+        """Hear one half after the other, so that frames of several protocols are told in the order of their ends."""
+        half = len(data) // 2
+        bus, ear, first = self.hear(ear, data[:half], signals, now)
+        bus, ear, second = bus.hear(ear, data[half:], signals, now)
+        return bus, ear, _without_foreign_noise(first + second)
 
     def silence(self, ear: Ear, signals: Sequence[Signals], now: float) -> tuple["Bus", Ear, tuple[Heard, ...]]:
         """Let all modules hear that a host sends nothing for 3.5 characters, which ends a frame of Modbus RTU.
@@ -132,8 +151,7 @@ class Bus:
             else:
                 bus, heard = bus._hear_frame(ear, reception, part, signals, now)
                 told.append(heard)
-        spoken = {heard.protocol for heard in told if not isinstance(heard.frame, Noise)}
-        return bus, ear, tuple([heard for heard in told if not spoken or heard.protocol in spoken])
+        return bus, ear, _without_foreign_noise(told)
 
     def _hear_frame(
         self, ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float
@@ -153,24 +171,57 @@ class Bus:
         return Bus(tuple(after)), Heard(frame, reception.protocol, asked, module.profile, answer, module.response_delay)
 
 
+_AT_ANY_LINE = {protocol: Reception(protocol, None) for protocol in Protocol}
+
+
 def _reception(module: State, ear: Ear) -> Reception:
     if ear.uart is None:
-        return Reception(module.ram.protocol, None)
-    own = Uart.of(module.ram.line_settings)
-    return Reception(module.ram.protocol, None if own.sounds_like(ear.uart) else own)
+        return _AT_ANY_LINE[module.ram.protocol]
+    return _reception_at(module.ram.protocol, module.ram.line_settings, ear.uart)
+
+
+@lru_cache
+def _reception_at(protocol: Protocol, line: LineSettings, uart: Uart) -> Reception:
+    own = Uart.of(line)
+    return Reception(protocol, None if own.sounds_like(uart) else own)
 
 
 def _is_for(module: State, frame: bytes) -> bool:
     address = module.ram.address
-    return frame[0] == address if module.ram.protocol is Protocol.MODBUS_RTU else frame[1:3] == b"%02X" % address
+    return frame[0] == address if module.ram.protocol is Protocol.MODBUS_RTU else frame[1:3] == _IN_DCON[address]
+
+
+_IN_DCON = tuple([b"%02X" % address for address in range(0x100)])
+
+
+def _hears(module: State, frame: bytes) -> bool:
+    """Whether a frame could do anything to a module: to all others it is but time."""
+    if module.ram.protocol is Protocol.MODBUS_RTU:
+        return frame[:1] == b"\0" or frame[:1] == bytes((module.ram.address,))
+    to = frame[1:3]
+    return to == _IN_DCON[module.ram.address] or to == b"**"
+
+
+def _is_mixed(found: list[tuple[Reception, bytes | Noise]]) -> bool:
+    """Whether there are frames of several protocols, all of them as they were sent."""
+    receptions = {reception for reception, part in found if not isinstance(part, Noise)}
+    return len(receptions) > 1 and all(reception.uart is None for reception in receptions)
+
+
+def _without_foreign_noise(told: Sequence[Heard]) -> tuple[Heard, ...]:
+    """Leave out what is noise to some modules where others heard a frame."""
+    spoken = {heard.protocol for heard in told if not isinstance(heard.frame, Noise)}
+    return tuple([heard for heard in told if not spoken or heard.protocol in spoken])
 
 
 def _split(reception: Reception, heard: bytes) -> tuple[tuple[bytes | Noise, ...], bytes]:
     if reception.protocol is Protocol.DCON:
         return dcon.split(heard)
     parts, rest = modbus.split(heard, modbus.Side.REQUESTS)
-    whole = len(heard) <= modbus.LONGEST_FRAME and all(isinstance(part, Noise) for part in parts)
-    return ((), heard) if whole else (parts, rest)  # It could be a request of an unknown function: silence will tell.
+    last = parts[-1] if parts else b""
+    if isinstance(last, Noise) and len(last.wire) + len(rest) <= modbus.LONGEST_FRAME:
+        return parts[:-1], last.wire + rest  # It could be a request of an unknown function: silence will tell.
+    return parts, rest
 
 
 def _flush(reception: Reception, rest: bytes) -> tuple[bytes | Noise, ...]:

@@ -11,9 +11,10 @@ from time import monotonic, time
 from attrs import evolve, frozen
 
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
+from i7000.errors import Noise
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
-from i7000.simulator.sources import Sources
+from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 
 __all__ = ["Host", "Simulated", "Simulator"]
 
@@ -57,6 +58,7 @@ class Simulator:
         self._epoch = time() - monotonic()
         self._began = self.now
         self._simulated = tuple(modules)
+        self._sampled: tuple[int, tuple[Signals, ...]] | None = None
         self.bus = Bus(())
         self.power_cycle()
 
@@ -67,9 +69,12 @@ class Simulator:
 
     @property
     def signals(self) -> tuple[Signals, ...]:
-        """What is on the inputs of each module now."""
-        seconds = self.now - self._began
-        return tuple([module.sources.at(seconds) for module in self._simulated])
+        """What is on the inputs of each module now: the same until they are sampled again."""
+        number = int((self.now - self._began) * SAMPLES_A_SECOND)
+        if self._sampled is None or self._sampled[0] != number:
+            seconds = number / SAMPLES_A_SECOND
+            self._sampled = number, tuple([module.sources.at(seconds) for module in self._simulated])
+        return self._sampled[1]
 
     def modules(self) -> tuple[tuple[State, Signals], ...]:
         """Tell the modules as they are now, with what is on their inputs."""
@@ -79,6 +84,7 @@ class Simulator:
         """Connect other signals to the inputs, for each module."""
         pairs = zip(self._simulated, sources, strict=True)
         self._simulated = tuple(evolve(module, sources=source) for module, source in pairs)
+        self._sampled = None
 
     def power_cycle(self) -> None:
         """Take the power of all modules away, and give it back."""
@@ -151,7 +157,12 @@ class Host:
         if simulator.faults.echo:
             self._write(data)
         carried, faults = simulator.faults.carried(data, simulator.chance)
-        self._take(*simulator.bus.hear(self.ear, carried, simulator.signals, simulator.now), faults=faults)
+        signals, now = simulator.signals, simulator.now
+        bus, ear, told = simulator.bus.hear(self.ear, carried, signals, now)
+        if told and told[-1].answer is not None and ear.ends_with(told[-1].frame):
+            bus, ear, others = bus.silence(ear, signals, now)  # A module answers when the line is silent.
+            told += tuple([heard for heard in others if not isinstance(heard.frame, Noise)])
+        self._take(bus, ear, told, faults=faults)
 
     @property
     def uart(self) -> Uart | None:
