@@ -2,7 +2,7 @@
 
 import pytest
 
-from i7000 import Model, Protocol, dcon, modbus
+from i7000 import EncodeError, Model, Protocol, dcon, modbus
 from i7000.device import Bus, Signals
 from tests.device.driver import bench
 
@@ -61,5 +61,5 @@ def test_answers_that_collide_are_garbled_unless_they_are_equal() -> None:
 def test_every_module_has_its_signals() -> None:
     line = bus(A01=Model.I_7018)
 
-    with pytest.raises(ValueError, match="zip"):
+    with pytest.raises(EncodeError, match="signals cannot be 0: 1, those of each module"):
         line.step(dcon.seal(b"#01", checksum=False), [], 0.0)

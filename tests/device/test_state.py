@@ -17,9 +17,10 @@ from i7000 import (
     Protocol,
     ReportSettings,
     TypeCode,
+    Unit,
     device,
 )
-from i7000.device import factory, power_on
+from i7000.device import OPEN_WIRE, Signal, Signals, factory, power_on, step
 from i7000.device.state import NEWEST
 from i7000.models import AVAILABILITY, CONFIGURABLE
 
@@ -100,3 +101,27 @@ def test_a_state_is_frozen_and_keeps_its_profile() -> None:
     assert state.keep(checksum=True).profile.checksum
     assert state.keep(checksum=True).store(address=5).profile.checksum
     assert state.keep(line_settings=LineSettings(BaudRate.BAUD_1200)).profile == state.profile
+
+
+@pytest.mark.parametrize("now", [float("nan"), float("inf"), 10**400])
+def test_a_time_that_is_not_finite_is_refused(now: float) -> None:
+    state = power_on(factory(Model.M_7017mC_16), now=0.0)
+
+    with pytest.raises(EncodeError, match="now cannot be"):
+        power_on(state.eeprom, now=now)
+    with pytest.raises(EncodeError, match="now cannot be"):
+        step(state, b"$012\r", Signals(), now)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), 10**400, True, "1"])
+def test_a_signal_is_a_finite_number(value: Any) -> None:
+    with pytest.raises(EncodeError, match="value cannot be"):
+        Signal(value, Unit.VOLT)
+    with pytest.raises(EncodeError, match="cold_junction cannot be"):
+        Signals(cold_junction=value)
+
+
+def test_nothing_is_on_a_channel_that_is_not_there() -> None:
+    signals = Signals.of(Unit.VOLT, 1.0)
+
+    assert [signals.channel(number) for number in (-1, 1, 10**30)] == [OPEN_WIRE] * 3

@@ -8,6 +8,7 @@ from attrs import frozen
 from i7000.device.module import step
 from i7000.device.signals import Signals
 from i7000.device.state import State
+from i7000.errors import EncodeError
 
 __all__ = ["Bus"]
 
@@ -22,6 +23,7 @@ class Bus:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
 
         Shape: `signals` are those of each module, in their order.
+        Errors: `EncodeError` for signals of more or fewer modules.
         Special: if several answer at once, each bit is 1 where all send 1 (assumption): equal answers look like one.
 
         >>> from i7000 import Model
@@ -30,6 +32,8 @@ class Bus:
         >>> bus.step(b"$01M\r", (Signals(), Signals()), 0.0)[1]
         b'!017018\r'
         """
+        if len(signals) != len(self.modules):
+            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
         after, answers = [], []
         for module, own in zip(self.modules, signals, strict=True):
             state, answer = step(module, frame, own, now)
