@@ -2,6 +2,8 @@
 
 import pickle
 
+import pytest
+
 from i7000 import DecodeError, EncodeError, Fault
 
 
@@ -38,6 +40,19 @@ def test_a_long_frame_is_kept_whole_and_shown_in_part() -> None:
 
     assert len(error.wire) == 1_000_000
     assert len(str(error)) < 200
+
+
+@pytest.mark.parametrize("value", [10**5000, -(10**5000), (10**5000,)], ids=["large", "negative", "within"])
+def test_a_number_of_any_size_can_be_told(value: object) -> None:
+    error = EncodeError("address", value, "00..FF", "2")
+
+    assert str(error).startswith("address cannot be a number too long to be written, of or in ")
+    assert repr(error).startswith("EncodeError('address', a number too long")
+    assert error.value == value
+
+
+def test_an_error_is_shown_with_its_facts() -> None:
+    assert repr(EncodeError("channel", 9, "0..7", "2.4")) == "EncodeError('channel', 9, '0..7', '2.4', '')"
 
 
 def test_errors_survive_pickling() -> None:

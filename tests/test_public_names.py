@@ -9,11 +9,11 @@ import attrs
 import pytest
 
 import i7000
-from i7000 import dcon, host, modbus
+from i7000 import dcon, device, host, modbus
 from i7000.dcon.codec import COMMANDS
 from tests.spec.lint import SPEC, rows
 
-MODULES = [i7000, dcon, modbus, host]
+MODULES = [i7000, dcon, modbus, device, host]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)

@@ -173,3 +173,12 @@ def test_a_disabled_channel_is_blanks_both_ways(data_format: DataFormat) -> None
 
     assert field.isspace()
     assert reading == decode_field(field, TypeCode.V_10, data_format)
+
+
+@pytest.mark.parametrize("word", [-1, 0x10000, 10**5000], ids=["negative", "17-bit", "large"])
+def test_a_number_that_is_no_word_is_refused(word: int) -> None:
+    for decode in (decode_word, decode_engineering_word):
+        with pytest.raises(DecodeError) as caught:
+            decode(word, TypeCode.K)
+
+        assert Fault.NUMBER is caught.value.fault

@@ -8,7 +8,7 @@ from enum import Enum
 
 from attrs import frozen
 
-__all__ = ["DecodeError", "EncodeError", "Fault", "I7000Error", "Noise"]
+__all__ = ["DecodeError", "EncodeError", "Fault", "I7000Error", "Noise", "shown"]
 
 
 class Fault(Enum):
@@ -51,7 +51,10 @@ class Fault(Enum):
 
 
 class I7000Error(Exception):
-    """The base of every error that this package raises on purpose."""
+    """The base of every error that this package raises on purpose; it can be told whatever its facts are."""
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(map(shown, self.args))})"
 
 
 class EncodeError(I7000Error, ValueError):
@@ -70,7 +73,7 @@ class EncodeError(I7000Error, ValueError):
         self.reason = reason
 
     def __str__(self) -> str:
-        reason = self.reason or f"{self.field} cannot be {_short(self.value)}"
+        reason = self.reason or f"{self.field} cannot be {shown(self.value)}"
         source = f", manual {self.section}" if self.section else ""
         return f"{reason}: {self.allowed}{source}"
 
@@ -100,7 +103,7 @@ class DecodeError(I7000Error, ValueError):
         where = f" in {self.field}" if self.field not in ("", self.fault.value) else ""
         allowed = f"; allowed: {self.allowed}" if self.allowed else ""
         source = f" (manual {self.section})" if self.section else ""
-        return f"{self.fault.value}{where} at byte {self.offset} of {_short(self.wire)}{allowed}{source}"
+        return f"{self.fault.value}{where} at byte {self.offset} of {shown(self.wire)}{allowed}{source}"
 
 
 def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> DecodeError:
@@ -112,8 +115,12 @@ _SHOWN = 60
 """Characters of a value that a message shows; the attribute holds all of it."""
 
 
-def _short(value: object) -> str:
-    text = repr(value)
+def shown(value: object) -> str:
+    """Write a value for a message: whole if that is short, and never with an error of its own."""
+    try:
+        text = repr(value)
+    except ValueError:  # sys.set_int_max_str_digits
+        return f"a number too long to be written, of or in {type(value).__name__}"
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}... ({len(text)} characters)"
 
 

@@ -13,7 +13,7 @@ from operator import itemgetter
 from types import MethodType
 from typing import NamedTuple
 
-from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.errors import DecodeError, EncodeError, Fault, shown
 from i7000.profile import Profile
 from i7000.settings import DataFormat
 from i7000.type_codes import TypeCode, Unit
@@ -381,7 +381,7 @@ def encode_engineering_word(reading: Reading, type_code: TypeCode) -> int:
 
 def _check_word(word: int) -> None:
     if not 0 <= word <= 0xFFFF:
-        raise DecodeError(Fault.NUMBER, str(word).encode(), field="word", allowed="0..65535", section="A.5")
+        raise DecodeError(Fault.NUMBER, shown(word).encode(), field="word", allowed="0..65535", section="A.5")
 
 
 def signed(word: int) -> int:

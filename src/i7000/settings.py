@@ -121,9 +121,17 @@ class CjcUpdate(IntEnum):
     ONCE = 2
 
 
+_LARGEST_FLOAT = float.fromhex("0x1.fffffffffffffp+1023")
+
+
 def is_int(value: object, low: int, high: int) -> bool:
     """Whether a value is an int in a range, and no truth value."""
     return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is a finite number, of a size that a float can have, and no truth value."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST_FLOAT
 
 
 def _byte(name: str, value: int) -> int:

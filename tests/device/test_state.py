@@ -22,7 +22,7 @@ from i7000 import (
     Unit,
     device,
 )
-from i7000.device import Eeprom, Log, Signal, Signals, State, factory, power_on
+from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, factory, power_on, step
 from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
 from i7000.models import AVAILABILITY, CONFIGURABLE
@@ -184,3 +184,27 @@ def test_a_module_of_20_channels_that_was_changed_is_as_one_that_was_made_so() -
 
     assert made.profile == changed.profile
     assert fields(made, Signals()) == fields(changed, Signals())
+
+
+@pytest.mark.parametrize("now", [float("nan"), float("inf"), 10**400])
+def test_a_time_that_is_not_finite_is_refused(now: float) -> None:
+    state = power_on(factory(Model.M_7017mC_16), now=0.0)
+
+    with pytest.raises(EncodeError, match="now cannot be"):
+        power_on(state.eeprom, now=now)
+    with pytest.raises(EncodeError, match="now cannot be"):
+        step(state, b"$012\r", Signals(), now)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), 10**400, True, "1"])
+def test_a_signal_is_a_finite_number(value: Any) -> None:
+    with pytest.raises(EncodeError, match="value cannot be"):
+        Signal(value, Unit.VOLT)
+    with pytest.raises(EncodeError, match="cold_junction cannot be"):
+        Signals(cold_junction=value)
+
+
+def test_nothing_is_on_a_channel_that_is_not_there() -> None:
+    signals = Signals.of(Unit.VOLT, 1.0)
+
+    assert [signals.channel(number) for number in (-1, 1, 10**30)] == [OPEN_WIRE] * 3

@@ -187,6 +187,8 @@ def test_a_line_whose_speed_is_not_defined_is_refused() -> None:
         ("grace", float("inf")),
         ("grace", float("nan")),
         ("turnaround", "1"),
+        ("turnaround", True),
+        ("grace", 10**400),
     ],
 )
 def test_a_policy_that_is_none_is_refused(name: str, value: object) -> None:

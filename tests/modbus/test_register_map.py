@@ -715,3 +715,21 @@ def test_the_words_of_readings_are_read_as_the_readings(data_format: ModbusDataF
 def test_words_are_of_channels_that_are_there(channel: int) -> None:
     with pytest.raises(EncodeError, match="channel cannot be"):
         modbus.words([Reading(0.0, Unit.VOLT)], Profile(Model.M_7019R), channel=channel)
+
+
+@pytest.mark.parametrize("key", [10**5000, -(10**5000), 1 << 64], ids=["large", "negative", "64-bit"])
+def test_a_number_of_any_size_is_no_register(key: int) -> None:
+    for find in (M_7019R.find, lambda number: M_7019R.read(0x01, number), lambda number: M_7019R.plan(0x01, [number])):
+        with pytest.raises(EncodeError, match="M-7019R has no register"):
+            find(key)
+
+
+@pytest.mark.parametrize("channels", [3, 0, (0, 1), "0", slice(0, 2)])
+def test_channels_are_a_range(channels: Any) -> None:
+    for use in (
+        lambda: M_7019R.read(0x01, "type_code", channels=channels),
+        lambda: M_7019R.write(0x01, "type_code", [5], channels=channels),
+        lambda: M_7019R.decode("type_code", [5], channels=channels),
+    ):
+        with pytest.raises(EncodeError, match=r"channels cannot be .*: a range within 0\.\.7"):
+            use()

@@ -16,7 +16,7 @@ from i7000.device.module import advance, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.device.uart import Uart, hear_at
-from i7000.errors import Noise
+from i7000.errors import EncodeError, Noise
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
@@ -76,6 +76,7 @@ class Bus:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
 
         Shape: `signals` are those of each module, in their order.
+        Errors: `EncodeError` for signals of more or fewer modules.
         Special: if several answer at once, each bit is 1 where all send 1 (E112, assumption): equal answers look like
             one.
 
@@ -85,6 +86,8 @@ class Bus:
         >>> bus.step(b"$01M\r", (Signals(), Signals()), 0.0)[1]
         b'!017018\r'
         """
+        if len(signals) != len(self.modules):
+            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
         after, answers = [], []
         for module, own in zip(self.modules, signals, strict=True):
             if not _hears(module, frame):

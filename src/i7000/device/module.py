@@ -4,8 +4,9 @@ from i7000.device import dcon, modbus
 from i7000.device.measurement import words
 from i7000.device.signals import Signals
 from i7000.device.state import State
+from i7000.errors import EncodeError
 from i7000.models import Model
-from i7000.settings import Protocol
+from i7000.settings import Protocol, is_number
 
 __all__ = ["advance", "step"]
 
@@ -35,8 +36,11 @@ def advance(state: State, signals: Signals, now: float) -> State:
     """Let time pass: the host watchdog may time out, the data logger record.
 
     Special: what the logger missed since it was last called, it records with the `signals` of now.
+    Errors: `EncodeError` for a time that is not finite.
     Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (a time-out of 0 never comes), E106, E114.
     """
+    if not is_number(now):
+        raise EncodeError("now", now, "a finite number of seconds", "2")
     eeprom = state.eeprom
     timeout = eeprom.host_watchdog_timeout
     if eeprom.host_watchdog_enabled and timeout and now >= state.ram.fed_at + timeout / 10:

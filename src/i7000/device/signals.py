@@ -3,11 +3,10 @@
 Laws: a signal is what a meter would show at the terminals; what the module makes of it is its own business.
 """
 
-from math import isfinite
-
 from attrs import field, frozen
 
 from i7000.errors import EncodeError
+from i7000.settings import is_number
 from i7000.type_codes import Unit
 
 __all__ = ["OPEN_WIRE", "Signal", "Signals"]
@@ -24,7 +23,7 @@ class Signal:
     unit: Unit
 
     def __attrs_post_init__(self) -> None:
-        if not isfinite(self.value):
+        if not is_number(self.value):
             raise EncodeError("value", self.value, "a finite number", "1.11")
 
 
@@ -32,6 +31,10 @@ OPEN_WIRE = None
 """An input that nothing is connected to."""
 
 _COLDEST, _HOTTEST = -200.0, 200.0
+
+
+def _degrees(value: float) -> float:
+    return float(value) if is_number(value) else value
 
 
 @frozen(cache_hash=True)
@@ -46,10 +49,10 @@ class Signals:
     """
 
     channels: tuple[Signal | None, ...] = ()
-    cold_junction: float = field(default=25.0, kw_only=True, converter=float)
+    cold_junction: float = field(default=25.0, kw_only=True, converter=_degrees)
 
     def __attrs_post_init__(self) -> None:
-        if not _COLDEST <= self.cold_junction <= _HOTTEST:
+        if not is_number(self.cold_junction) or not _COLDEST <= self.cold_junction <= _HOTTEST:
             raise EncodeError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
 
     @classmethod
@@ -58,5 +61,5 @@ class Signals:
         return cls(tuple(Signal(value, unit) for value in values), cold_junction=cold_junction)
 
     def channel(self, number: int) -> Signal | None:
-        """Tell what is on one channel."""
-        return self.channels[number] if number < len(self.channels) else OPEN_WIRE
+        """Tell what is on one channel; there is nothing on one that is not there."""
+        return self.channels[number] if 0 <= number < len(self.channels) else OPEN_WIRE

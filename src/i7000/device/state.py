@@ -24,6 +24,7 @@ from i7000.settings import (
     ModbusDataFormat,
     Protocol,
     ReportSettings,
+    is_number,
 )
 from i7000.type_codes import TypeCode
 
@@ -310,12 +311,15 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
 
     Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
         Without power the data logger has recorded nothing.
+    Errors: `EncodeError` for a time that is not finite.
     Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)
     >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
     (0, 'DCON', 1, 'MODBUS_RTU')
     """
+    if not is_number(now):
+        raise EncodeError("now", now, "a finite number of seconds", "2")
     ram = Ram(
         address=0 if init_switch else eeprom.address,
         line_settings=LineSettings() if init_switch else eeprom.line_settings,

@@ -10,7 +10,7 @@ they are. For this, what has come in has to be handed to `receive` before the ne
 """
 
 from collections.abc import Iterable
-from math import inf, isfinite
+from math import inf
 from typing import Any, Generic, Never, TypeVar, overload
 
 from attrs import evolve, field, frozen
@@ -20,7 +20,7 @@ from i7000.errors import DecodeError, EncodeError, Noise
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
 from i7000.host.exchange import Exchange, answers, finish, split
 from i7000.profile import Profile
-from i7000.settings import BaudRate, LineSettings
+from i7000.settings import BaudRate, LineSettings, is_number
 
 __all__ = ["Bus", "Policy", "next_deadline", "receive", "send", "wake"]
 
@@ -53,7 +53,7 @@ class Policy:
         if not isinstance(self.retries, int) or isinstance(self.retries, bool) or self.retries < 0:
             raise EncodeError("retries", self.retries, "0 or more", "2")
         for name, value in (("turnaround", self.turnaround), ("grace", self.grace)):
-            if not isinstance(value, int | float) or not isfinite(value) or value < 0:
+            if not is_number(value) or value < 0:
                 raise EncodeError(name, value, "seconds, 0 or more", "2")
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.errors import DecodeError, EncodeError, Fault, shown
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
 from i7000.modbus.request import ExceptionResponse, Request
@@ -28,6 +28,7 @@ from i7000.modbus.standard import (
     WriteSingleRegister,
 )
 from i7000.profile import Profile
+from i7000.settings import is_int
 
 __all__ = ["Items", "Plan", "ReadItems", "RegisterMap"]
 
@@ -42,7 +43,7 @@ _READERS: dict[Area, Any] = {
     Area.INPUT_REGISTER: ReadInputRegisters,
     Area.HOLDING_REGISTER: ReadHoldingRegisters,
 }
-_FIRST_NUMBER = 10001
+_FIRST_NUMBER, _LAST_NUMBER = 10001, 99999
 
 
 @frozen
@@ -91,7 +92,7 @@ class RegisterMap:
         if found:
             return next((row for row in found if row.area in (Area.DISCRETE_INPUT, Area.INPUT_REGISTER)), found[0])
         names = ", ".join(sorted({row.name for row in self.rows})) or "it has none"
-        raise EncodeError("register", key, names, "3.4", f"{self.profile.name} has no register {key!r}")
+        raise EncodeError("register", key, names, "3.4", f"{self.profile.name} has no register {shown(key)}")
 
     def read(self, address: int, key: str | int, *, channels: range | None = None) -> ReadItems:
         """Make the request that reads a row, or some channels of it.
@@ -185,7 +186,12 @@ class RegisterMap:
         """Which values of a row are meant: the first, how many, and whether it is one by itself."""
         most = row.count // row.kind.width
         if channels is not None:
-            if most == 1 or channels.step != 1 or not 0 <= channels.start < channels.stop <= most:
+            if (
+                most == 1
+                or not isinstance(channels, range)
+                or channels.step != 1
+                or not 0 <= channels.start < channels.stop <= most
+            ):
                 several = f"a range within 0..{most - 1}"
                 allowed = several if most > 1 else f"none: {row.name} is not for single channels"
                 raise EncodeError("channels", channels, allowed, "3.4")
@@ -200,6 +206,8 @@ def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:
     """The area and address that a number means; None for a name, or a number of no area."""
     if isinstance(key, int) and key < _FIRST_NUMBER:
         return area or Area.HOLDING_REGISTER, key
+    if not isinstance(key, str) and not is_int(key, _FIRST_NUMBER, _LAST_NUMBER):
+        return None
     text = str(key)
     if len(text) == 5 and text.isdecimal() and text.isascii() and int(text[0]) in {it.value for it in Area}:
         return Area(int(text[0])), int(text[1:]) - 1

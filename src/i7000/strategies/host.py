@@ -1,0 +1,102 @@
+"""Strategies for the host's half of the conversation: policies, lines in the midst of a request, events.
+
+Laws: a line is in a state that it can come to: what happened to it was sent, heard or waited for. The smallest example
+is a line on which nothing has happened.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from hypothesis import strategies as st
+from hypothesis.strategies import SearchStrategy
+
+from i7000 import Model, Profile, dcon, modbus
+from i7000.errors import Fault
+from i7000.host import (
+    Answered,
+    AnyCommand,
+    Bus,
+    Declined,
+    Ended,
+    Late,
+    Policy,
+    Rejected,
+    Sent,
+    TimedOut,
+    Transmit,
+    receive,
+    send,
+    wake,
+)
+from i7000.strategies import dcon as dcon_strategies
+from i7000.strategies import modbus as modbus_strategies
+from i7000.strategies.vocabulary import line_settings
+
+__all__ = ["buses", "exchanges", "policies"]
+
+_LINES = line_settings(Profile(Model.M_7017))
+
+
+def policies() -> SearchStrategy[Policy]:
+    """Make policies, the usual one first."""
+    seconds = st.just(0.2) | st.floats(0, 5)
+    return st.builds(Policy, retries=st.sampled_from((2, 0, 1, 3)), turnaround=seconds, grace=seconds)
+
+
+def exchanges() -> SearchStrategy[tuple[Profile, AnyCommand, Any, bytes]]:
+    """Make exchanges by either protocol: a profile, what is sent, its answer, and the bytes of the answer."""
+    by_dcon = dcon_strategies.exchanges().map(lambda it: (it.profile, it.command, it.response, it.response_wire))
+    by_modbus = modbus_strategies.exchanges().map(lambda it: (it.profile, it.request, it.response, it.response_wire))
+    return by_dcon | by_modbus
+
+
+@st.composite
+def buses(draw: st.DrawFn) -> Bus[Any]:
+    """Make lines on which a request is open, is over or was never sent, whatever was heard."""
+    bus = Bus[Any](draw(_LINES), draw(policies()), draw(st.booleans()))
+    now = 0.0
+    for _ in range(draw(st.integers(0, 2))):
+        profile, command, _, answer = draw(exchanges())
+        if bus.pending is None:
+            bus, _ = send(bus, command, profile, now)
+        heard = draw(st.sampled_from((answer, answer[:3], b"")) | st.binary(max_size=8))
+        bus, _ = receive(bus, heard, now)
+        now += draw(st.floats(0, 2))
+        bus, _ = wake(bus, now)
+    return bus
+
+
+def _outcomes(kind: type[Ended]) -> SearchStrategy[Ended]:
+    """Make outcomes of a class that has nothing but its command."""
+    return exchanges().map(lambda it: kind(it[1]))
+
+
+def _broadcasts() -> SearchStrategy[Sent]:
+    commands = st.sampled_from((dcon.SynchronizedSampling(), dcon.HostOk()))
+    return st.builds(Sent, commands | modbus_strategies.messages(modbus.WriteSingleCoil).map(_to_all))
+
+
+def _to_all(request: modbus.WriteSingleCoil) -> modbus.WriteSingleCoil:
+    return modbus.WriteSingleCoil(modbus.BROADCAST, request.coil, request.value)
+
+
+def _answers(*, declined: bool) -> SearchStrategy[Any]:
+    """Make the outcomes of requests that were answered."""
+    refusals = dcon.Refused | modbus.ExceptionResponse
+    kind = Declined if declined else Answered
+    return exchanges().filter(lambda it: isinstance(it[2], refusals) is declined).map(lambda it: kind(it[1], it[2]))
+
+
+BY_KIND: Mapping[type, Callable[[], SearchStrategy[Any]]] = {
+    Answered: lambda: _answers(declined=False),
+    Bus: buses,
+    Declined: lambda: _answers(declined=True),
+    Ended: lambda: st.one_of(_answers(declined=False), _answers(declined=True), _outcomes(TimedOut), _broadcasts()),
+    Late: lambda: st.builds(Late, st.binary(min_size=1)),
+    Policy: policies,
+    Rejected: lambda: st.builds(Rejected, st.binary(min_size=1), st.sampled_from(Fault), st.text()),
+    Sent: _broadcasts,
+    TimedOut: lambda: _outcomes(TimedOut),
+    Transmit: lambda: st.builds(Transmit, st.binary(min_size=1)),
+}
+"""The strategies of the public classes."""
