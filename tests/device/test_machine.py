@@ -143,7 +143,7 @@ def damaged(draw: st.DrawFn, frame: bytes) -> bytes:
 LEVELS = st.sampled_from((0.0, 1.0, -1.0, 10.0, 60.0, -60.0, 499.0, 625.0, 1000.0, 2500.0, -4000.0, 5100.0, 150_000.0))
 DEGREES = st.sampled_from((0.0, 25.0, 25.5, -12.25, -250.0, 100.0, 399.5, 1000.0, 2400.0))
 INPUT = st.none() | st.tuples(st.just("mV"), LEVELS) | st.tuples(st.just("degC"), DEGREES)
-RICH = ["I-7019R", "M-7019R", "M-7019Z", "M-7017Z", "M-7017mC-16", "M-7017R"]
+RICH = ["I-7019R", "M-7019R", "M-7019Z", "M-7017Z", "M-7017mC-16", "M-7017R", "M-7017RMS", "M-7018R"]
 """Models that have much that others have not."""
 UNITS = {"mV": Unit.MILLIVOLT, "degC": Unit.CELSIUS}
 
@@ -245,10 +245,11 @@ class Module(RuleBasedStateMachine):
         self.oracle.power_on()
         self.state = power_on(self.state.eeprom, init_switch=switch, now=self.oracle.now)
 
-    @rule(channel=st.integers(0, 19), signal=INPUT, ambient=st.sampled_from((25.0, 25.0, 0.0, -10.5, 60.25)))
-    def the_inputs_change(self, channel: int, signal: tuple[str, float] | None, ambient: float) -> None:
-        self.oracle.signals[channel % self.oracle.inputs] = signal
+    @rule(signals=st.lists(INPUT, min_size=1, max_size=4), ambient=st.sampled_from((25.0, 25.0, 0.0, -10.5, 60.25)))
+    def the_inputs_change(self, signals: list[tuple[str, float] | None], ambient: float) -> None:
+        self.oracle.signals = [signals[at % len(signals)] for at in range(self.oracle.inputs)]
         self.oracle.ambient = ambient
+        self.all_is_read()
 
     # --- what belongs together --------------------------------------------------------------------------------------
 
@@ -333,14 +334,14 @@ class Module(RuleBasedStateMachine):
                 self.say(f"${self.oracle.address:02X}4")
 
     @precondition(lambda self: self.oracle.model.endswith("7017Z"))
-    @rule(mask=st.integers(0, 0xFFFFF))
-    def the_connecting_mode_is_changed(self, mask: int) -> None:
+    @rule(mask=st.integers(0, 0xFFFFF), single_ended=st.booleans())
+    def the_connecting_mode_is_changed(self, mask: int, *, single_ended: bool) -> None:
         if self.oracle.protocol == "modbus":
-            self.write("single_ended", not self.oracle.single_ended)
+            self.write("single_ended", single_ended)
             self.write("channel_mask", mask & 0xFFFF)
             self.write("channel_mask_high", mask >> 16)
         else:
-            self.say(f"@{self.oracle.address:02X}S{not self.oracle.single_ended:d}")
+            self.say(f"@{self.oracle.address:02X}S{single_ended:d}")
             own = mask & (1 << self.oracle.channels) - 1
             self.say(f"${self.oracle.address:02X}5{own:0{self.oracle.mask_digits}X}")
         self.all_is_read()
