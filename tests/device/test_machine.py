@@ -324,6 +324,24 @@ class Module(RuleBasedStateMachine):
         self.oracle.ambient -= 3.25
         self.all_is_read()
 
+    @rule(data=st.data(), channel=st.integers(0, 8), offset=st.integers(0, 0xFF), signal=INPUT)
+    def a_channel_is_set(
+        self, data: st.DataObject, channel: int, offset: int, signal: tuple[str, float] | None
+    ) -> None:
+        it = self.oracle
+        code = int(data.draw(st.sampled_from(sorted(it.row["types"], reverse=True))), 16)
+        if it.protocol == "modbus":
+            at = channel if it.individual else 0
+            for body in (bytes((8, 0, at, code)), bytes((0x2C, 0x80 + channel, 0, offset))):
+                self.send(modbus_oracle.sealed(bytes((it.address, 0x46)) + body))
+        else:
+            number = f"{channel:0{2 if it.single_ended else 1}X}"
+            self.say(f"${it.address:02X}7C{number}R{code:02X}")
+            everywhere = code if channel == 8 else 0xFF
+            self.say(f"%{it.address:02X}{it.stored_address:02X}{everywhere:02X}{it.line:02X}{it.report:02X}")
+        it.signals[channel % it.inputs] = signal
+        self.all_is_read()
+
     @precondition(lambda self: self.oracle.protocol == "dcon")
     @rule(signal=INPUT, samples=st.sampled_from((1, 1, 2, 0)))
     def a_sample_is_read_twice(self, signal: tuple[str, float] | None, samples: int) -> None:
