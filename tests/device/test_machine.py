@@ -143,7 +143,7 @@ def damaged(draw: st.DrawFn, frame: bytes) -> bytes:
 LEVELS = st.sampled_from((0.0, 1.0, -1.0, 10.0, 60.0, -60.0, 499.0, 625.0, 1000.0, 2500.0, -4000.0, 5100.0, 150_000.0))
 DEGREES = st.sampled_from((0.0, 25.0, 25.5, -12.25, -250.0, 100.0, 399.5, 1000.0, 2400.0))
 INPUT = st.none() | st.tuples(st.just("mV"), LEVELS) | st.tuples(st.just("degC"), DEGREES)
-RICH = ["I-7019R", "M-7019R", "M-7019Z", "M-7017Z", "M-7017mC-16", "M-7017R"]
+RICH = ["I-7019R", "M-7019R", "M-7019Z", "M-7017Z", "M-7017mC-16", "M-7017R", "M-7017RMS", "M-7018R"]
 """Models that have much that others have not."""
 UNITS = {"mV": Unit.MILLIVOLT, "degC": Unit.CELSIUS}
 
@@ -245,10 +245,11 @@ class Module(RuleBasedStateMachine):
         self.oracle.power_on()
         self.state = power_on(self.state.eeprom, init_switch=switch, now=self.oracle.now)
 
-    @rule(channel=st.integers(0, 19), signal=INPUT, ambient=st.sampled_from((25.0, 25.0, 0.0, -10.5, 60.25)))
-    def the_inputs_change(self, channel: int, signal: tuple[str, float] | None, ambient: float) -> None:
-        self.oracle.signals[channel % self.oracle.inputs] = signal
+    @rule(signals=st.lists(INPUT, min_size=1, max_size=4), ambient=st.sampled_from((25.0, 25.0, 0.0, -10.5, 60.25)))
+    def the_inputs_change(self, signals: list[tuple[str, float] | None], ambient: float) -> None:
+        self.oracle.signals = [signals[at % len(signals)] for at in range(self.oracle.inputs)]
         self.oracle.ambient = ambient
+        self.all_is_read()
 
     # --- what belongs together --------------------------------------------------------------------------------------
 
@@ -323,6 +324,24 @@ class Module(RuleBasedStateMachine):
         self.oracle.ambient -= 3.25
         self.all_is_read()
 
+    @rule(data=st.data(), channel=st.integers(0, 8), offset=st.integers(0, 0xFF), signal=INPUT)
+    def a_channel_is_set(
+        self, data: st.DataObject, channel: int, offset: int, signal: tuple[str, float] | None
+    ) -> None:
+        it = self.oracle
+        code = int(data.draw(st.sampled_from(sorted(it.row["types"], reverse=True))), 16)
+        if it.protocol == "modbus":
+            at = channel if it.individual else 0
+            for body in (bytes((8, 0, at, code)), bytes((0x2C, 0x80 + channel, 0, offset))):
+                self.send(modbus_oracle.sealed(bytes((it.address, 0x46)) + body))
+        else:
+            number = f"{channel:0{2 if it.single_ended else 1}X}"
+            self.say(f"${it.address:02X}7C{number}R{code:02X}")
+            everywhere = code if channel == 8 else 0xFF
+            self.say(f"%{it.address:02X}{it.stored_address:02X}{everywhere:02X}{it.line:02X}{it.report:02X}")
+        it.signals[channel % it.inputs] = signal
+        self.all_is_read()
+
     @precondition(lambda self: self.oracle.protocol == "dcon")
     @rule(signal=INPUT, samples=st.sampled_from((1, 1, 2, 0)))
     def a_sample_is_read_twice(self, signal: tuple[str, float] | None, samples: int) -> None:
@@ -333,14 +352,14 @@ class Module(RuleBasedStateMachine):
                 self.say(f"${self.oracle.address:02X}4")
 
     @precondition(lambda self: self.oracle.model.endswith("7017Z"))
-    @rule(mask=st.integers(0, 0xFFFFF))
-    def the_connecting_mode_is_changed(self, mask: int) -> None:
+    @rule(mask=st.integers(0, 0xFFFFF), single_ended=st.booleans())
+    def the_connecting_mode_is_changed(self, mask: int, *, single_ended: bool) -> None:
         if self.oracle.protocol == "modbus":
-            self.write("single_ended", not self.oracle.single_ended)
+            self.write("single_ended", single_ended)
             self.write("channel_mask", mask & 0xFFFF)
             self.write("channel_mask_high", mask >> 16)
         else:
-            self.say(f"@{self.oracle.address:02X}S{not self.oracle.single_ended:d}")
+            self.say(f"@{self.oracle.address:02X}S{single_ended:d}")
             own = mask & (1 << self.oracle.channels) - 1
             self.say(f"${self.oracle.address:02X}5{own:0{self.oracle.mask_digits}X}")
         self.all_is_read()
