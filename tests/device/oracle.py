@@ -77,7 +77,7 @@ class Oracle:
         self.fed_at, self.calibration, self.reset_told = self.now, False, False
         self.soft_timeout, self.soft_until = 0, -inf
         self.update, self.held = 1, None  # type: int, float | None
-        self.sampled: tuple[list[tuple[str, float] | None], float] | None = None
+        self.sampled: list[list[str]] | None = None  # in each data format
         self.sampled_told = False
 
     # --- what it has ------------------------------------------------------------------------------------------------
@@ -251,7 +251,8 @@ class Oracle:
         if frame != sealed(body, checksum=self.checksum):
             return None
         if body == "#**" and self.series == "7019":
-            self.sampled, self.sampled_told = (list(self.signals), self.ambient), False
+            self.sampled = [self.fields(code, self.signals, self.ambient) for code in range(3)]
+            self.sampled_told = False
         if body == "~**":
             self.fed_at = self.now
         own, checksum = f"{self.address:02X}", self.checksum
@@ -334,7 +335,7 @@ def sampled(it: Oracle) -> Answer:
     if it.sampled is None:
         return False
     first, it.sampled_told = not it.sampled_told, True
-    return f">{it.address:02X}{first:d}" + "".join(it.fields(it.data_format, *it.sampled))
+    return f">{it.address:02X}{first:d}" + "".join(it.sampled[it.data_format])
 
 
 @answers("2.15", "$", "7CNRhh")
