@@ -162,6 +162,17 @@ def test_noise_is_told_unless_it_is_a_frame_to_others() -> None:
     assert [heard.frame.wire for heard in told if isinstance(heard.frame, Noise)] == [b"\xff\r", RTU + b"\r"]
 
 
+@pytest.mark.parametrize("said", [b"$09M\r", b"#**\r", b"hello\r"])
+def test_what_was_told_of_dcon_is_not_told_again_as_noise_to_others(said: bytes) -> None:
+    line, ear, told = hear_all(bus(**MIXED), said)
+
+    _, ear, others = silence(line, ear)
+
+    assert len(told) == 1
+    assert others == ()
+    assert ear == Ear()
+
+
 def test_what_is_longer_than_a_frame_is_noise_before_silence_tells() -> None:
     _, ear, told = hear_all(bus(M01=Model.M_7017), b"\xff" * 256, b"\xff")
 

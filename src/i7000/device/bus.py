@@ -40,6 +40,8 @@ class Ear:
 
     uart: Uart | None = None
     rests: tuple[tuple[Reception, bytes], ...] = field(default=(), kw_only=True)
+    told: bool = field(default=False, kw_only=True)
+    """Whether something of DCON has been told since the line was silent: to others that is noise."""
 
     @property
     def waiting(self) -> bool:
@@ -124,7 +126,8 @@ class Bus:
                 left.append((reception, rest))
         if len(data) > 1 and _is_mixed(found):
             return self._hear_in_turn(ear, data, signals, now)
-        return self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
+        bus, ear, told = self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
+        return bus, evolve(ear, told=ear.told or any(it.protocol is Protocol.DCON for it in told)), told
 
     def _hear_in_turn(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
@@ -142,7 +145,9 @@ class Bus:
         """
         found = [(reception, part) for reception, rest in ear.rests for part in _flush(reception, rest)]
         left = tuple((reception, rest) for reception, rest in ear.rests if reception.protocol is Protocol.DCON)
-        return self._hear(evolve(ear, rests=left), found, signals, now)
+        if ear.told:
+            found = [(reception, part) for reception, part in found if not isinstance(part, Noise)]
+        return self._hear(evolve(ear, rests=left, told=False), found, signals, now)
 
     def _hear(
         self, ear: Ear, found: Sequence[tuple[Reception, bytes | Noise]], signals: Sequence[Signals], now: float
