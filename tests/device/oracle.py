@@ -58,7 +58,7 @@ class Oracle:
         self.stored_address, self.line, self.stored_checksum, self.data_format = 1, 0x06, False, 0
         self.fast, self.filter_50_hz = bool(self.row["fast_mode_default"]), False
         self.stored_protocol = "modbus" if "modbus" in self.row["protocols"] else "dcon"
-        self.name = (self.series + model[6:].replace("-", ""))[:6]
+        self.name = (self.series + model[6:].replace("-", ""))[:6].upper()
         self.single_ended = self.engineering = False
         self.cjc_offset, self.cjc_enabled = 0, True
         self.tenths, self.hundredths = [0] * inputs, [0] * inputs

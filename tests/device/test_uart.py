@@ -7,14 +7,9 @@ from hypothesis import strategies as st
 from i7000 import BaudRate, CharacterFormat, EncodeError, LineSettings
 from i7000.device import Uart
 from i7000.device.uart import _levels, _sampled, hear_at
+from i7000.strategies.device import uarts
 
-UARTS = st.builds(
-    Uart,
-    st.sampled_from((300, 1200, 9600, 9650, 19200, 115200)),
-    parity=st.sampled_from("NEOMS"),
-    stop_bits=st.sampled_from((1, 1.5, 2)),
-    data_bits=st.sampled_from((5, 6, 7, 8)),
-)
+UARTS = uarts()
 
 
 def through_levels(data: bytes, sent: Uart, heard: Uart) -> bytes:

@@ -11,13 +11,29 @@ from attrs import evolve
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import ModbusDataFormat, Model, Protocol, Unit, dcon, modbus
-from i7000.device import Bus, Eeprom, Log, LogCommand, Ram, Record, Signal, Signals, State, factory, power_on, step
+from i7000 import BaudRate, ModbusDataFormat, Model, Protocol, Unit, dcon, modbus
+from i7000.device import (
+    Bus,
+    Ear,
+    Eeprom,
+    Heard,
+    Log,
+    LogCommand,
+    Ram,
+    Record,
+    Signal,
+    Signals,
+    State,
+    Uart,
+    factory,
+    power_on,
+    step,
+)
 from i7000.strategies.dcon import any_commands
 from i7000.strategies.modbus import any_requests
 from i7000.strategies.vocabulary import addresses, firmwares, line_settings, report_settings, supported_types
 
-__all__ = ["eeproms", "frames", "logs", "records", "signals", "states"]
+__all__ = ["eeproms", "frames", "logs", "records", "signals", "states", "uarts"]
 
 _WORD = st.integers(0, 0xFFFF)
 _LONG = st.integers(0, 0xFFFFFFFF)
@@ -146,18 +162,51 @@ def _buses() -> SearchStrategy[Bus]:
     return st.lists(states(dialogue=1), max_size=3).map(lambda modules: Bus(tuple(modules)))
 
 
+def uarts() -> SearchStrategy[Uart]:
+    """Make settings of one end of a line, mostly such as modules have."""
+    rates = st.sampled_from([rate.bits_per_second for rate in BaudRate]) | st.integers(1, 1_000_000)
+    return st.builds(
+        Uart,
+        st.just(9600) | rates,
+        parity=st.sampled_from("NEOMS"),
+        stop_bits=st.sampled_from((1, 1.5, 2)),
+        data_bits=st.sampled_from((8, 7, 6, 5)),
+    )
+
+
+@st.composite
+def _hearings(draw: st.DrawFn) -> tuple[Ear, tuple[Heard, ...]]:
+    """Let a module or two hear some of a frame, a frame or noise."""
+    modules = draw(st.lists(states(dialogue=0), min_size=1, max_size=2))
+    frame = draw(frames(modules[0]) | st.binary(min_size=1, max_size=8))
+    sent = frame[: draw(st.integers(1, len(frame)))] if draw(st.booleans()) else frame
+    _, ear, heard = Bus(tuple(modules)).hear(Ear(draw(st.none() | uarts())), sent, [Signals()] * len(modules), 0.0)
+    return ear, heard
+
+
+def _ears() -> SearchStrategy[Ear]:
+    return _hearings().map(lambda hearing: hearing[0])
+
+
+def _heard() -> SearchStrategy[Heard]:
+    return _hearings().filter(lambda hearing: bool(hearing[1])).map(lambda hearing: hearing[1][0])
+
+
 def _ram() -> SearchStrategy[Ram]:
     return states().map(lambda state: state.ram)
 
 
 BY_KIND: Mapping[type, Callable[[], SearchStrategy[Any]]] = {
     Bus: _buses,
+    Ear: _ears,
     Eeprom: eeproms,
+    Heard: _heard,
     Log: logs,
     Ram: _ram,
     Record: records,
     Signal: _signals,
     Signals: signals,
     State: states,
+    Uart: uarts,
 }
 """The strategies of the public classes."""
