@@ -1,7 +1,8 @@
 """The model of a module against its own codec: reading the same frame and writing the same answer, nothing between.
 
 What is compared: `step` reads the frame, looks at time, does what is asked or measures, makes the response and writes
-it. The codec is given the response ready made, and where there is none it only reads. Signals that change are others in
+it. The codec is given the response ready made, and where there is none it only reads; where all channels are measured
+anew each time, it is given their readings, and writes these as fields or words too. Signals that change are others in
 each step, made before. Frames that write are sent in turn, so that each changes something.
 """
 
@@ -12,8 +13,9 @@ from typing import Any
 
 from attrs import evolve, frozen
 
-from i7000 import DecodeError, Model, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
+from i7000 import DecodeError, Model, Profile, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
 from i7000.device import LogCommand, Signal, Signals, State, factory, power_on, step
+from i7000.readings import encode_word
 from tests.benchmarks.timing import Result, Task, at_most, best_times
 
 MOST = 4.0
@@ -38,6 +40,8 @@ class Dialogue:
     frames: tuple[bytes, ...]
     changing: bool = False
     """Whether there are other signals each time."""
+    measured: bool = False
+    """Whether all channels are measured anew each time."""
     seconds: float = 0.0
     """How much time passes between two."""
 
@@ -58,20 +62,32 @@ class Dialogue:
         state, heard = self.state, []
         for frame in self.frames:
             after, answer = step(state, frame, FIXED, 0.0)
-            heard.append((frame, state.profile, value_of(frame, answer, state), after.profile))
+            heard.append((frame, state.profile, self.writing(value_of(frame, answer, state), after.profile)))
             state = after
         rounds = cycle(heard)
         rtu = self.state.ram.protocol is Protocol.MODBUS_RTU
         decode: Any = modbus.decode_request if rtu else dcon.decode_command
-        encode: Any = modbus.encode if rtu else dcon.encode
 
-        def read_and_write() -> bytes | None:
-            frame, before, response, after = next(rounds)
+        def read_and_write() -> object:
+            frame, before, write = next(rounds)
             with suppress(DecodeError):
                 decode(frame, before)
-            return None if response is None else encode(response, after)
+            return write()
 
         return read_and_write
+
+    def writing(self, response: Any, profile: Profile) -> Task:
+        """Tell how the codec writes a response: of its readings, if they are measured."""
+        if response is None:
+            return lambda: None
+        if self.measured and isinstance(response, dcon.AnalogInputs):
+            told = dcon.readings(response, profile)
+            return lambda: dcon.encode(dcon.AnalogInputs(dcon.fields(told, profile)), profile)
+        if self.measured and isinstance(response, modbus.InputRegisters):
+            read, codes, at = modbus.readings(response.values, profile), profile.type_codes, response.address
+            return lambda: modbus.encode(modbus.InputRegisters(at, tuple(map(encode_word, read, codes))), profile)
+        encode: Any = modbus.encode if isinstance(response, modbus.Message) else dcon.encode
+        return lambda: encode(response, profile)
 
 
 def changing() -> Iterator[Signals]:
@@ -96,19 +112,20 @@ def dcon_dialogues() -> Iterator[Dialogue]:
     """What a module with checksums hears."""
     state = module(Protocol.DCON, checksum=True)
 
-    def says(what: str, *commands: dcon.AnyCommand, changing: bool = False) -> Dialogue:
+    def says(what: str, *commands: dcon.AnyCommand, changing: bool = False, measured: bool = False) -> Dialogue:
         frames = tuple(dcon.encode(command, state.profile, force=True) for command in commands)
-        return Dialogue(what, state, frames, changing)
+        return Dialogue(what, state, frames, changing, measured)
 
     mask = (dcon.SetChannelMask(0x01, 0x7F), dcon.SetChannelMask(0x01, 0xFF))
     yield says("#AA, the same signals", dcon.ReadAnalogInputs(0x01))
-    yield says("#AA, other signals each time", dcon.ReadAnalogInputs(0x01), changing=True)
+    yield says("#AA, other signals each time", dcon.ReadAnalogInputs(0x01), changing=True, measured=True)
     yield says("#AAN", dcon.ReadAnalogInput(0x01, 3))
     yield says("$AA2", dcon.ReadConfiguration(0x01))
     yield says("$AA8Ci", dcon.ReadChannelTypeCode(0x01, 3))
     yield says("$AA5VV, each changes the mask", *mask)
     yield says("$AA7CiRrr, each changes a type", *(dcon.SetChannelTypeCode(0x01, 3, code) for code in TYPES))
-    yield says("$AA5VV and #AA in turn", mask[0], dcon.ReadAnalogInputs(0x01), mask[1], dcon.ReadAnalogInputs(0x01))
+    inputs = dcon.ReadAnalogInputs(0x01)
+    yield says("$AA5VV and #AA in turn", mask[0], inputs, mask[1], inputs, measured=True)
     yield says("$AA8Ci, refused", dcon.ReadChannelTypeCode(0x01, 9))
     yield says("$AA2 to another module", dcon.ReadConfiguration(0x02))
     wrong = dcon.encode(dcon.ReadConfiguration(0x01), state.profile)[:-2] + b"0\r"
@@ -122,12 +139,12 @@ def modbus_dialogues() -> Iterator[Dialogue]:
     """What the same module hears by Modbus."""
     state = module(Protocol.MODBUS_RTU)
 
-    def says(what: str, *requests: modbus.Request[Any], changing: bool = False) -> Dialogue:
+    def says(what: str, *requests: modbus.Request[Any], changing: bool = False, measured: bool = False) -> Dialogue:
         frames = tuple(modbus.encode(request, state.profile, force=True) for request in requests)
-        return Dialogue(what, state, frames, changing)
+        return Dialogue(what, state, frames, changing, measured)
 
     yield says("04, the same signals", modbus.ReadInputRegisters(0x01, 0, 8))
-    yield says("04, other signals each time", modbus.ReadInputRegisters(0x01, 0, 8), changing=True)
+    yield says("04, other signals each time", modbus.ReadInputRegisters(0x01, 0, 8), changing=True, measured=True)
     yield says("03, types of 8 channels", modbus.ReadHoldingRegisters(0x01, 256, 8))
     yield says("01, a coil", modbus.ReadCoils(0x01, 259, 1))
     yield says("46h, the mask", modbus.ReadChannelMask(0x01))
@@ -138,7 +155,9 @@ def modbus_dialogues() -> Iterator[Dialogue]:
     yield says("05, each changes a coil", *(modbus.WriteSingleCoil(0x01, 268, value) for value in (True, False)))
     yield says("46h, each changes the mask", *(modbus.SetChannelMask(0x01, mask) for mask in (0x7F, 0xFF)))
     yield says("03, exception 02", modbus.ReadHoldingRegisters(0x01, 470, 10))
-    yield Dialogue("04, 16 channels, a log record each time", logging(), says("", READ_16).frames, seconds=1.0)
+    yield Dialogue(
+        "04, 16 channels, a log record each time", logging(), says("", READ_16).frames, measured=True, seconds=1.0
+    )
     yield says("04 to another module", modbus.ReadInputRegisters(0x02, 0, 8))
     frame = modbus.encode(modbus.ReadInputRegisters(0x01, 0, 8))
     yield Dialogue("04 with a wrong CRC", state, (frame[:-1] + bytes((frame[-1] ^ 1,)),))
