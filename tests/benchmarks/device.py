@@ -15,7 +15,6 @@ from attrs import evolve, frozen
 
 from i7000 import DecodeError, Model, Profile, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
 from i7000.device import LogCommand, Signal, Signals, State, factory, power_on, step
-from i7000.readings import encode_word
 from tests.benchmarks.timing import Result, Task, at_most, best_times
 
 MOST = 4.0
@@ -84,8 +83,8 @@ class Dialogue:
             told = dcon.readings(response, profile)
             return lambda: dcon.encode(dcon.AnalogInputs(dcon.fields(told, profile)), profile)
         if self.measured and isinstance(response, modbus.InputRegisters):
-            read, codes, at = modbus.readings(response.values, profile), profile.type_codes, response.address
-            return lambda: modbus.encode(modbus.InputRegisters(at, tuple(map(encode_word, read, codes))), profile)
+            read, at = modbus.readings(response.values, profile), response.address
+            return lambda: modbus.encode(modbus.InputRegisters(at, modbus.words(read, profile)), profile)
         encode: Any = modbus.encode if isinstance(response, modbus.Message) else dcon.encode
         return lambda: encode(response, profile)
 
