@@ -291,6 +291,17 @@ def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch
     assert 'pip install "i7000[simulator]"' in told.err
 
 
+def test_a_system_without_pseudo_terminals_is_told_what_else_there_is(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "i7000.simulator.pseudo_terminal", None)
+
+    told = run("simulate", "--model", KELVIN)
+
+    assert (told.code, told.out) == (2, "")
+    assert "give --tcp or --rfc2217" in told.err
+
+
 # --- as a process -----------------------------------------------------------------------------------------------------
 
 

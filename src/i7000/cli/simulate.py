@@ -167,7 +167,10 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
     """Open all places where hosts are to find the bus, and tell them."""
     found = []
     if simulated.pty:
-        from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
+        try:
+            from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
+        except ModuleNotFoundError:
+            raise UsageError("this system has no pseudo-terminals: give --tcp or --rfc2217") from None
 
         found.append(await opened.enter_async_context(open_pty(simulator)))
     for place in simulated.places:
