@@ -114,7 +114,7 @@ def test_traffic_can_be_told_line_by_line(run: Run) -> None:
 
 def test_on_a_terminal_there_is_a_live_view_that_leaves_it_as_it_was(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     port = free_port()
-    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
 
     def meanwhile() -> None:
