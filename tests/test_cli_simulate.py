@@ -1,5 +1,6 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
+import asyncio
 import os
 import re
 import signal
@@ -113,7 +114,7 @@ def test_traffic_can_be_told_line_by_line(run: Run) -> None:
 
 def test_on_a_terminal_there_is_a_live_view_that_leaves_it_as_it_was(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     port = free_port()
-    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
 
     def meanwhile() -> None:
@@ -197,6 +198,24 @@ def test_the_init_switch_is_not_in_the_file(tmp_path: Path) -> None:
     assert (without.init_switch, switched.init_switch) == (False, True)
 
 
+def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path) -> None:
+    memory, port = tmp_path / "modules.json", free_port()
+
+    def meanwhile() -> None:
+        talk(f"socket://127.0.0.1:{port}", b"$01M\r")
+        memory.unlink()
+        os.mkfifo(memory)
+        talk(f"socket://127.0.0.1:{port}", b"~01OABC\r")
+
+    doing = Thread(target=meanwhile)
+    doing.start()
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
+    doing.join()
+
+    assert told.code == 2
+    assert "is a device or pipe" in told.err
+
+
 def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
     told = run("simulate", "--model", KELVIN, "--eeprom", str(tmp_path / "nowhere" / "modules.json"))
 
@@ -272,6 +291,17 @@ def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch
     assert 'pip install "i7000[simulator]"' in told.err
 
 
+def test_a_system_without_pseudo_terminals_is_told_what_else_there_is(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "i7000.simulator.pseudo_terminal", None)
+
+    told = run("simulate", "--model", KELVIN)
+
+    assert (told.code, told.out) == (2, "")
+    assert "give --tcp or --rfc2217" in told.err
+
+
 # --- as a process -----------------------------------------------------------------------------------------------------
 
 
@@ -300,3 +330,26 @@ def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
     assert answers == [SAID]
     assert (started.returncode, rest, errors) == (0, "", "")
     assert not Path(path).exists()
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals) -> None:
+    with process("--model", KELVIN) as started:
+        assert started.stdout
+        started.stdout.readline()
+
+        started.send_signal(ending)
+        rest, errors = started.communicate(timeout=10)
+
+    assert (started.returncode, rest, errors) == (0, "", "")
+
+
+def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def add_signal_handler(*_: object) -> None:
+        raise NotImplementedError
+
+    monkeypatch.setattr(asyncio.SelectorEventLoop, "add_signal_handler", add_signal_handler)
+
+    told = simulated(run, "--model", KELVIN, "--tcp", "0", meanwhile=lambda: sleep(0.5))
+
+    assert (told.code, told.err) == (130, "")

@@ -121,7 +121,20 @@ def test_a_line_that_is_cut_shows_it() -> None:
 
 
 def test_a_bus_without_modules_is_shown() -> None:
-    assert drawn([])[-1] == "on the line: nothing yet"
+    assert drawn([])[-1] == "on the line  nothing yet"
+
+
+def test_where_hosts_find_the_bus_stays_in_view() -> None:
+    console = Console(file=io.StringIO(), width=140, height=40, color_system=None)
+    with console.capture() as captured:
+        console.print(View(list, console, ("/dev/pts/7", "socket://127.0.0.1:5020")))
+
+    assert captured.get().splitlines()[-1].split("  ") == [
+        "on the line",
+        "/dev/pts/7",
+        "socket://127.0.0.1:5020",
+        "nothing yet",
+    ]
 
 
 # --- the traffic ------------------------------------------------------------------------------------------------------

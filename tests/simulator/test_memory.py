@@ -13,11 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, TypeCode
-from i7000.device import CAPACITY, Eeprom, Log, LogCommand, Record, factory
+from i7000.device import CAPACITY, Eeprom, Log, LogCommand, Record, State, factory
 from i7000.device.state import profile_of
 from i7000.errors import I7000Error
 from i7000.simulator.memory import MemoryFileError, load, save
 from i7000.strategies import firmwares, line_settings, report_settings
+from i7000.strategies.device import states
 from i7000.strategies.vocabulary import supported_types
 
 # --- what modules can remember ----------------------------------------------------------------------------------------
@@ -115,6 +116,17 @@ def test_what_was_saved_is_loaded(tmp_path_factory: pytest.TempPathFactory, modu
 
     assert load(path) == modules
     assert [it.firmware.text for it in load(path)] == [it.firmware.text for it in modules]
+
+
+@given(states())
+def test_what_a_module_remembers_after_what_it_has_heard_is_loaded(
+    tmp_path_factory: pytest.TempPathFactory, state: State
+) -> None:
+    path = tmp_path_factory.getbasetemp() / "heard.json"
+
+    save(path, [state.eeprom])
+
+    assert load(path) == (state.eeprom,)
 
 
 @pytest.mark.parametrize("model", Model, ids=lambda model: model.value)

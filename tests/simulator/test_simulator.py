@@ -3,9 +3,11 @@
 import asyncio
 import errno
 import socket
+import struct
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
+from threading import Event, Thread
 from time import monotonic, sleep
 from typing import Any, cast
 
@@ -16,6 +18,7 @@ from attrs import evolve
 from i7000 import BaudRate, LineSettings, Model, Noise, Profile, Protocol, Unit, modbus
 from i7000.device import Eeprom, Signal
 from i7000.simulator.faults import Faults
+from i7000.simulator.memory import MemoryFileError
 from i7000.simulator.observed import Observed
 from i7000.simulator.pseudo_terminal import open_pty
 from i7000.simulator.rfc2217 import Rfc2217Connection
@@ -212,6 +215,34 @@ def test_the_same_seed_has_the_same_faults() -> None:
     assert first != heard(2)
 
 
+def test_what_happened_to_a_frame_is_told_with_what_was_heard_of_it() -> None:
+    """A request by Modbus that was damaged is heard only when the line is silent."""
+    spoken = module(Model.M_7017, protocol=Protocol.MODBUS_RTU)
+
+    with running(listen, spoken, faults=Faults(flip=1.0)) as here, port(here, "socket") as opened:
+        opened.write(b"\x01\x04")
+        while not here.observed:
+            sleep(0.01)
+
+    assert [len(it.faults) for it in here.observed] == [2]
+
+
+def test_of_what_is_lost_altogether_not_all_is_remembered() -> None:
+    async def converse() -> list[Observed]:
+        observed: list[Observed] = []
+        simulator = Simulator([I_7018], faults=Faults(drop=1.0), observe=observed.append)
+        host = Host(simulator, "host", lambda _: None)
+        host.receive(b"#01\r" * 1000)
+        simulator.faults = Faults()
+        host.receive(b"#02\r")
+        return observed
+
+    (told,) = asyncio.run(converse())
+
+    assert told.faults[-1] == "byte 3999 lost"
+    assert len(told.faults) == 16
+
+
 # --- what modules remember --------------------------------------------------------------------------------------------
 
 
@@ -250,6 +281,18 @@ def test_a_memory_that_cannot_be_written_ends_the_simulation() -> None:
 
     with pytest.raises(OSError, match="no space"):
         rename_twice()
+
+
+def test_a_memory_that_refuses_what_it_is_to_store_ends_the_simulation() -> None:
+    def store(_: Sequence[Eeprom]) -> None:
+        raise MemoryFileError("modules.json", "the file itself", "is a device or pipe", "a regular file")
+
+    def rename() -> None:
+        with running(listen, I_7018, store=store) as here, port(here, "socket") as opened:
+            assert ask(opened, b"~01OABC\r", 4) == b"!01\r"
+
+    with pytest.raises(MemoryFileError, match="device or pipe"):
+        rename()
 
 
 def test_a_power_cycle_leaves_what_is_stored() -> None:
@@ -353,6 +396,9 @@ def test_a_host_that_has_not_read_for_long_loses_what_it_is_sent(unread: int, wr
         def __init__(self) -> None:
             self.written: list[bytes] = []
 
+        def is_closing(self) -> bool:
+            return False
+
         def get_write_buffer_size(self) -> int:
             return unread
 
@@ -365,6 +411,87 @@ def test_a_host_that_has_not_read_for_long_loses_what_it_is_sent(unread: int, wr
     connection.write(b"!01\r")
 
     assert written == network.written
+
+
+@pytest.mark.parametrize("scheme", ["socket", "rfc2217"])
+def test_a_host_that_never_ends_leaves_the_others_their_turn(scheme: str) -> None:
+    with running(TRANSPORTS[scheme], I_7018) as here, connected(here) as flooding:
+        flooding.settimeout(0.01)
+        over = Event()
+
+        def flood() -> None:
+            while not over.is_set():
+                with suppress(TimeoutError):
+                    flooding.send(b"#01\r" * 50_000)
+
+        hostile = Thread(target=flood)
+        hostile.start()
+        try:
+            while len(here.observed) < 1000:
+                sleep(0.01)
+            with port(here, scheme) as opened:
+                before = len(here.observed)
+                answer = ask(opened, b"$01M\r", 8)
+                meanwhile = len(here.observed) - before
+        finally:
+            over.set()
+            hostile.join()
+
+    assert answer == b"!017018\r"
+    assert meanwhile < 10_000
+
+
+def test_what_is_negotiated_with_a_host_that_does_not_read_is_not_kept() -> None:
+    class Network(asyncio.Transport):
+        def __init__(self) -> None:
+            self.written = 0
+
+        def get_extra_info(self, name: str, default: Any = None) -> Any:
+            return ("127.0.0.1", 5020) if name == "peername" else default
+
+        def is_closing(self) -> bool:
+            return False
+
+        def get_write_buffer_size(self) -> int:
+            return self.written
+
+        def write(self, data: Any) -> None:
+            self.written += len(data)
+
+    async def negotiate() -> int:
+        network = Network()
+        connection = Rfc2217Connection(Simulator([I_7018]), set())
+        connection.connection_made(network)
+        connection.receive(b"\xff\xfa\x2c\x01\0\0\x25\x80\xff\xf0" * 10_000)
+        return network.written
+
+    assert asyncio.run(negotiate()) < (1 << 16) + 100
+
+
+def test_a_host_that_is_gone_is_sent_nothing(caplog: pytest.LogCaptureFixture) -> None:
+    """The network would complain of each answer."""
+    with running(listen, I_7018) as here:
+        for _ in range(5):
+            with connected(here) as opened:
+                opened.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                opened.sendall(b"#01\r" * 2000)
+                while not here.observed:
+                    sleep(0.001)
+            here.observed.clear()
+
+        with port(here, "socket") as opened:
+            assert ask(opened, b"$01M\r", 8) == b"!017018\r"
+
+    assert caplog.records == []
+
+
+def test_a_name_that_no_host_can_have_is_no_place() -> None:
+    async def wait() -> None:
+        async with listen(Simulator([I_7018]), "a" * 70):
+            """Nobody gets here."""
+
+    with pytest.raises(OSError, match="cannot be the name of a host"):
+        asyncio.run(wait())
 
 
 @every_transport

@@ -6,7 +6,7 @@ Laws: what some options need and others do not is imported when it is asked for.
 import asyncio
 import signal
 from collections.abc import Callable, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -135,9 +135,12 @@ def read_faults(texts: Sequence[str]) -> Faults:
 def run(simulated: Simulation, printer: Printer) -> int:
     """Simulate until Ctrl-C, or until somebody ends it; where hosts find it is the first that is printed.
 
-    Errors: `OSError` if there is no such place, or if the memory cannot be written.
+    Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
     """
-    return asyncio.run(_run(simulated, printer))
+    try:
+        return asyncio.run(_run(simulated, printer))
+    except I7000Error as error:
+        raise UsageError(error) from None
 
 
 async def _run(simulated: Simulation, printer: Printer) -> int:
@@ -148,12 +151,14 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
         simulator.store = partial(save, simulated.memory)
         simulator.store([module.eeprom for module in simulated.modules])
     async with AsyncExitStack() as opened:
-        for place in await _open(simulated, simulator, opened):
+        places = await _open(simulated, simulator, opened)
+        with suppress(NotImplementedError):  # Windows: Ctrl-C is an exception there.
+            for name in (signal.SIGINT, signal.SIGTERM):  # before anybody reads that it is there, and ends it
+                asyncio.get_running_loop().add_signal_handler(name, simulator.end)
+        for place in places:
             printer.out.out(place, highlight=False)
-            printer.out.file.flush()
-        for name in (signal.SIGINT, signal.SIGTERM):
-            asyncio.get_running_loop().add_signal_handler(name, simulator.end)
-        simulator.observe = _observer(simulated.view, printer, simulator, opened)
+        printer.out.file.flush()
+        simulator.observe = _observer(simulated.view, printer, simulator, places, opened)
         await simulator.run()
     return 0
 
@@ -162,7 +167,10 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
     """Open all places where hosts are to find the bus, and tell them."""
     found = []
     if simulated.pty:
-        from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
+        try:
+            from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
+        except ModuleNotFoundError:
+            raise UsageError("this system has no pseudo-terminals: give --tcp or --rfc2217") from None
 
         found.append(await opened.enter_async_context(open_pty(simulator)))
     for place in simulated.places:
@@ -177,11 +185,11 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
 
 
 def _observer(
-    kind: str, printer: Printer, simulator: Simulator, opened: AsyncExitStack
+    kind: str, printer: Printer, simulator: Simulator, places: Sequence[str], opened: AsyncExitStack
 ) -> Callable[[Observed], None] | None:
     """Show what goes on, in the manner that was asked for."""
     if kind == "none":
         return None
     if kind == "lines":
         return lambda observed: printer.show(lines(observed))
-    return opened.enter_context(View(simulator.modules, printer.out)).show
+    return opened.enter_context(View(simulator.modules, printer.out, places)).show

@@ -41,8 +41,12 @@ class View:
     Time: it is drawn four times a second, by another thread, which is the one that calls `modules`.
     """
 
-    def __init__(self, modules: Callable[[], _Modules], console: Console | None = None) -> None:
+    def __init__(
+        self, modules: Callable[[], _Modules], console: Console | None = None, places: Sequence[str] = ()
+    ) -> None:
+        """Make one that tells `places`, where hosts find the bus, which the alternate screen would hide."""
         self._modules = modules
+        self._places = places
         self._seen: tuple[Observed, ...] = ()
         self._live = Live(
             self,
@@ -72,7 +76,9 @@ class View:
         options = options.update(height=None)
         traffic = self._traffic(console, options, height)
         above = _table(self._modules(), console, options, height - min(len(traffic), height // 3) - 1)
-        title = Text("on the line" if traffic else "on the line: nothing yet", "bold")
+        title = Text("on the line", "bold")
+        for words in (*self._places, *(() if traffic else ("nothing yet",))):
+            title.append(f"  {words}", "not bold")
         drawn = [*above, [*_cut(title, options.max_width).render(console)]]
         drawn += traffic[max(0, len(traffic) - max(0, height - len(drawn))) :]
         for line in drawn[:height]:

@@ -1,6 +1,7 @@
 """A simulated bus behind RFC 2217: hosts set their baud rate and parity, and the wrong ones get garbage (pyserial)."""
 
 import asyncio
+from types import SimpleNamespace
 from typing import Any
 
 from attrs import evolve
@@ -82,10 +83,10 @@ class Rfc2217Connection(Connection):
         """Connect the host to the bus, and begin to negotiate."""
         super().connection_made(transport)
         port: Any = Port(self.host)
-        network: Any = self.transport
+        network: Any = SimpleNamespace(write=super().write)
         self.manager = PortManager(port, network)
 
-    def data_received(self, data: bytes) -> None:
+    def receive(self, data: bytes) -> None:
         """Take what the host sends and sets."""
         try:
             sent = b"".join(self.manager.filter(data))
@@ -95,7 +96,7 @@ class Rfc2217Connection(Connection):
         if len(self.manager.suboption or b"") > _LONGEST_SUBOPTION:
             self.close()
         elif sent:
-            super().data_received(sent)
+            super().receive(sent)
 
     def write(self, data: bytes) -> None:
         """Send to the host."""

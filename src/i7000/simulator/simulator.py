@@ -11,7 +11,7 @@ from time import monotonic, time
 from attrs import evolve, frozen
 
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
-from i7000.errors import Noise
+from i7000.errors import I7000Error, Noise
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
@@ -20,6 +20,8 @@ __all__ = ["Host", "Simulated", "Simulator"]
 
 _SILENCE = 0.02
 """Seconds after which a frame of Modbus RTU is over: more than 3.5 characters, as networks do not keep time."""
+_MOST_FAULTS = 16
+"""Faults that are remembered until there is something of which they can be told."""
 _TICK = 0.25
 """Seconds after which modules notice that time has passed, if nobody talks to them."""
 
@@ -108,7 +110,7 @@ class Simulator:
         if changed and self.store and not self._ended.done():
             try:
                 self.store([module.eeprom for module in bus.modules])
-            except OSError as error:
+            except (OSError, I7000Error) as error:
                 self._ended.set_exception(error)
 
     def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
@@ -120,7 +122,7 @@ class Simulator:
     async def run(self) -> None:
         """Let time pass until `end` is called.
 
-        Errors: `OSError` of `store`.
+        Errors: `OSError` or `I7000Error` of `store`.
         """
         while not self._ended.done():
             self.advance()
@@ -150,6 +152,7 @@ class Host:
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
         self._later: set[asyncio.TimerHandle] = set()
+        self._faults: tuple[str, ...] = ()
 
     def receive(self, data: bytes) -> None:
         """Take what the host sends."""
@@ -157,12 +160,13 @@ class Host:
         if simulator.faults.echo:
             self._write(data)
         carried, faults = simulator.faults.carried(data, simulator.chance)
+        self._faults = (*self._faults, *faults)[-_MOST_FAULTS:]
         signals, now = simulator.signals, simulator.now
         bus, ear, told = simulator.bus.hear(self.ear, carried, signals, now)
         if told and told[-1].answer is not None and ear.ends_with(told[-1].frame):
             bus, ear, others = bus.silence(ear, signals, now)  # A module answers when the line is silent.
             told += tuple([heard for heard in others if not isinstance(heard.frame, Noise)])
-        self._take(bus, ear, told, faults=faults)
+        self._take(bus, ear, told)
 
     @property
     def uart(self) -> Uart | None:
@@ -183,9 +187,12 @@ class Host:
         simulator = self.simulator
         self._take(*simulator.bus.silence(self.ear, simulator.signals, simulator.now))
 
-    def _take(self, bus: Bus, ear: Ear, told: Iterable[Heard], *, faults: tuple[str, ...] = ()) -> None:
+    def _take(self, bus: Bus, ear: Ear, told: Sequence[Heard]) -> None:
         self.simulator.change(bus)
         self.ear = ear
+        faults = self._faults
+        if told:
+            self._faults = ()
         for heard in told:
             happened = faults if heard.answer is None else (*faults, *self._answer(heard.answer, heard.delay))
             self.simulator.tell(self.name, heard, happened)

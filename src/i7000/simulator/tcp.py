@@ -1,12 +1,13 @@
 """TCP, with the bytes as they are on the line.
 
-Laws: a host that does not read loses what it is sent, as on a line; nothing waits for it.
+Laws: a host that does not read loses what it is sent, as on a line; nothing waits for it. However much a host sends,
+the others get their turn.
 """
 
 import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from typing import cast
+from typing import Any, cast
 
 from i7000.simulator.simulator import Host, Simulator
 
@@ -14,24 +15,34 @@ __all__ = ["LOOPBACK", "Connection", "listen"]
 
 LOOPBACK = "127.0.0.1"
 _MOST_UNREAD = 1 << 16
+_AT_ONCE = 1024
+"""Bytes of a host that are heard before it is another's turn."""
 
 
-class Connection(asyncio.Protocol):
+class Connection(asyncio.BufferedProtocol):
     """A host on the network, whose bytes are those of the line."""
 
     def __init__(self, simulator: Simulator, connections: "set[Connection]") -> None:
         """Make one that is in `connections` for as long as the host is there."""
         self.simulator = simulator
         self.connections = connections
+        self._received = bytearray(_AT_ONCE)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Connect the host to the bus."""
         self.transport = cast(asyncio.Transport, transport)
-        host, port, *_ = transport.get_extra_info("peername")
-        self.host = Host(self.simulator, f"{host}:{port}", self.write)
+        self.host = Host(self.simulator, _place(transport.get_extra_info("peername")), self.write)
         self.connections.add(self)
 
-    def data_received(self, data: bytes) -> None:
+    def get_buffer(self, sizehint: int) -> bytearray:  # noqa: ARG002 - it is always the same
+        """Tell where to put what the host sends."""
+        return self._received
+
+    def buffer_updated(self, nbytes: int) -> None:
+        """Take what was put there."""
+        self.receive(bytes(self._received[:nbytes]))
+
+    def receive(self, data: bytes) -> None:
         """Take what the host sends."""
         self.host.receive(data)
 
@@ -45,8 +56,8 @@ class Connection(asyncio.Protocol):
         self.transport.abort()
 
     def write(self, data: bytes) -> None:
-        """Send to the host, unless it has not read for long."""
-        if self.transport.get_write_buffer_size() < _MOST_UNREAD:
+        """Send to the host, unless it has not read for long, or is gone."""
+        if not self.transport.is_closing() and self.transport.get_write_buffer_size() < _MOST_UNREAD:
             self.transport.write(data)
 
 
@@ -64,11 +75,19 @@ async def listen(
     Errors: `OSError` where it cannot.
     """
     connections: set[Connection] = set()
-    server = await asyncio.get_running_loop().create_server(lambda: connection(simulator, connections), host, port)
+    loop = asyncio.get_running_loop()
     try:
-        address, found, *_ = server.sockets[0].getsockname()
-        yield f"[{address}]:{found}" if ":" in address else f"{address}:{found}"
+        server = await loop.create_server(lambda: connection(simulator, connections), host, port)
+    except UnicodeError:
+        raise OSError(f"{host!r} cannot be the name of a host") from None
+    try:
+        yield _place(server.sockets[0].getsockname())
     finally:
         server.close()
         for one in connections:
             one.close()
+
+
+def _place(address: tuple[Any, ...]) -> str:
+    host, port, *_ = address
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
