@@ -522,6 +522,27 @@ def test_what_comes_before_the_echo_is_late(command: AnyCommand, heard: bytes, e
     assert (TimedOut(command),) == wake(bus, due(bus))[1]
 
 
+@pytest.mark.parametrize(
+    ("request_", "profile", "response"),
+    [
+        (modbus.ReadChannelMask(0x01), M7019, modbus.ChannelMask(0x01, 0xFF)),
+        (modbus.ReadInputRegisters(0x01, 1024, 1), Profile(Model.M_7017mC_16), modbus.InputRegisters(0x01, (7,))),
+    ],
+    ids=["mask", "count"],
+)
+@pytest.mark.parametrize("whole", [True, False])
+def test_an_echo_is_known_though_a_00_behind_it_makes_a_longer_frame(
+    request_: Any, profile: Profile, response: Any, *, whole: bool
+) -> None:
+    """A CRC stays good when a 00 follows, and so many bytes more is as long as an answer could be."""
+    echo, answer = modbus.encode(request_, profile), modbus.encode(response, profile)
+    pieces = (echo + b"\0" + answer,) if whole else (echo, b"\0", answer)
+
+    _, events = hear(ask(idle(echo=True), request_, profile), *pieces)
+
+    assert (Noise(b"\0", Fault.ADDRESS), Answered(request_, response)) == events
+
+
 def test_a_lost_echo_is_not_made_up_for_by_an_answer_that_looks_like_it() -> None:
     bus, events = hear(ask(idle(echo=True), COIL), COIL_WIRE)
 

@@ -234,8 +234,11 @@ def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Ev
             events.append(frame)
         elif not request or not request.sent:
             events.append(Late(frame))
-        elif not request.echoed and frame == request.exchange.wire:
+        elif not request.echoed and frame.startswith(request.exchange.wire):
             bus = evolve(bus, pending=evolve(request, echoed=True))
+            surplus = frame[len(request.exchange.wire) :]  # a CRC stays good when 00 follows
+            bus, after = _take(bus, finish(request.exchange, surplus, echo=False))
+            events += after
         elif not request.echoed or not request.exchange.answered:
             events.append(Late(frame))
         else:
