@@ -1,5 +1,8 @@
 """What modules remember: from the factory, and what none can have stored."""
 
+import copy
+import pickle
+from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -68,6 +71,9 @@ def test_the_newest_firmware_has_everything() -> None:
     [
         (Model.I_7018, {"address": 256}),
         (Model.I_7018, {"address": -1}),
+        (Model.I_7018, {"address": 1.5}),
+        (Model.I_7018, {"address": True}),
+        (Model.I_7018, {"address": "1"}),
         (Model.I_7018, {"name": ""}),
         (Model.I_7018, {"name": "7018ABC"}),
         (Model.I_7018, {"name": "70$8"}),
@@ -76,7 +82,9 @@ def test_the_newest_firmware_has_everything() -> None:
         (Model.I_7018, {"type_codes": (TypeCode.V_10,) * 8}),
         (Model.I_7018, {"type_codes": (TypeCode.K, *[TypeCode.J] * 7)}),
         (Model.I_7017Z, {"type_codes": (*[TypeCode.V_10] * 19, TypeCode.K)}),
+        (Model.I_7018, {"type_codes": [TypeCode.K] * 8}),
         (Model.I_7018, {"channel_mask": 0x100}),
+        (Model.I_7018, {"channel_mask": 1.5}),
         (Model.I_7018, {"channel_offsets": (0,) * 9}),
         (Model.I_7018, {"channel_offsets": (128, *[0] * 7)}),
         (Model.I_7019R, {"channel_cjc_offsets": (-4097, *[0] * 7)}),
@@ -104,6 +112,28 @@ def test_a_state_is_frozen_and_keeps_its_profile() -> None:
     assert state.keep(checksum=True).profile.checksum
     assert state.keep(checksum=True).store(address=5).profile.checksum
     assert state.keep(line_settings=LineSettings(BaudRate.BAUD_1200)).profile == state.profile
+
+
+def test_a_state_that_is_made_from_another_by_its_parts_reads_by_its_own() -> None:
+    state = power_on(factory(Model.I_7019R), now=0.0)
+    signals = Signals.of(Unit.CELSIUS, *[100.0] * 8)
+
+    warmer = evolve(state, eeprom=evolve(state.eeprom, type_codes=(TypeCode.K,) * 8, cjc_offset=100))
+    sealed = evolve(state, ram=evolve(state.ram, checksum=True))
+
+    assert warmer.profile.type_codes == (TypeCode.K,) * 8
+    assert fields(warmer, signals) == ("+0101.0",) * 8
+    assert sealed.profile.checksum
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda it: pickle.loads(pickle.dumps(it))])  # noqa: S301
+def test_a_copy_of_a_state_is_equal_to_it_and_reads_the_same(copied: Callable[[State], State]) -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0).store(type_codes=(TypeCode.K,) * 8).keep(checksum=True)
+
+    again = copied(state)
+
+    assert (again, hash(again), again.profile) == (state, hash(state), state.profile)
+    assert fields(again, Signals()) == fields(state, Signals())
 
 
 def test_what_no_module_can_have_stored_is_not_stored() -> None:
@@ -202,6 +232,17 @@ def test_a_signal_is_a_finite_number(value: Any) -> None:
         Signal(value, Unit.VOLT)
     with pytest.raises(EncodeError, match="cold_junction cannot be"):
         Signals(cold_junction=value)
+
+
+@pytest.mark.parametrize("channels", [[Signal(1.0, Unit.VOLT)], (1.0,), None])
+def test_signals_are_a_tuple_of_signals_and_open_wires(channels: Any) -> None:
+    with pytest.raises(EncodeError, match="channels cannot be"):
+        Signals(channels)
+
+
+def test_a_signal_has_a_unit() -> None:
+    with pytest.raises(EncodeError, match="unit cannot be 'V'"):
+        Signal(1.0, "V")  # type: ignore[arg-type]
 
 
 def test_nothing_is_on_a_channel_that_is_not_there() -> None:
