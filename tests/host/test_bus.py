@@ -558,6 +558,17 @@ def test_an_echo_that_is_not_expected_is_rejected_or_answers_a_modbus_write() ->
     assert modbus_events == (COIL_ANSWER,)
 
 
+def test_an_echo_that_is_not_expected_answers_a_read_of_the_mask_if_a_00_follows() -> None:
+    """The module could have said just this, so it cannot be told apart."""
+    command = modbus.ReadChannelMask(0x01)
+    echo = modbus.encode(command)
+
+    _, events = hear(ask(idle(), command), echo + b"\0")
+
+    assert modbus.encode(modbus.ChannelMask(0x01, 0xD3), M7019) == echo + b"\0"
+    assert (Answered(command, modbus.ChannelMask(0x01, 0xD3)),) == events
+
+
 def test_each_try_has_its_echo() -> None:
     bus = ask(Bus[Any](policy=evolve(ONCE, retries=1), echo=True), COIL)
     bus, _ = hear(bus, COIL_WIRE)

@@ -85,7 +85,8 @@ class Bus(Generic[R]):
     policy: Policy = field(factory=Policy)
     echo: bool = False
     """Whether the adapter hears what it sends, as 2-wire ones may. Its echo is dropped, and nothing before it is an
-    answer. A Modbus write whose echo is not expected is answered by it."""
+    answer. A Modbus write whose echo is not expected is answered by it, and so is `i7000.modbus.ReadChannelMask` if a
+    00 follows: with it the echo is a good answer."""
 
     pending: Pending[R] | None = None
     last: Exchange[Any] | None = None
