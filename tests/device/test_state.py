@@ -25,7 +25,7 @@ from i7000 import (
     Unit,
     device,
 )
-from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, factory, power_on, step
+from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, advance, factory, power_on, step
 from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
 from i7000.models import AVAILABILITY, CONFIGURABLE
@@ -249,3 +249,14 @@ def test_nothing_is_on_a_channel_that_is_not_there() -> None:
     signals = Signals.of(Unit.VOLT, 1.0)
 
     assert [signals.channel(number) for number in (-1, 1, 10**30)] == [OPEN_WIRE] * 3
+
+
+def test_the_count_of_host_watchdog_time_outs_ends_where_its_register_does() -> None:
+    eeprom = evolve(
+        factory(Model.M_7018), host_watchdog_enabled=True, host_watchdog_timeout=1, host_watchdog_timeouts=0xFFFF
+    )
+
+    later = advance(power_on(eeprom, now=0.0), Signals(), 1.0)
+
+    assert later.eeprom.host_watchdog_timed_out
+    assert later.eeprom.host_watchdog_timeouts == 0xFFFF
