@@ -230,7 +230,7 @@ class Ram:
     cjc_update: CjcUpdate = CjcUpdate.STARTED
     """Not kept without power: power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
-    """The cold junction's temperature when its update ended, in degrees Celsius."""
+    """The cold junction's temperature when its update ended, in degrees Celsius; None while it is updated."""
     reset_status_told: bool = False
 
 
