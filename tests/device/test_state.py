@@ -148,6 +148,8 @@ def test_what_no_module_can_have_stored_is_not_stored() -> None:
     ):
         with pytest.raises(EncodeError):
             state.store(**changes)
+    with pytest.raises(EncodeError, match="type_codes"):
+        power_on(factory(Model.M_7017Z), now=0.0).store(type_codes=(*[TypeCode.V_10] * 19, TypeCode.K))
     with pytest.raises(TypeError, match="colour"):
         state.store(colour="red")
     with pytest.raises(TypeError, match="colour"):
