@@ -493,6 +493,28 @@ def test_a_modbus_request_is_repeated_after_silence() -> None:
     assert pytest.approx(deadline - 0.001 + SILENCE) == next_deadline(bus)
 
 
+def test_a_frame_that_is_not_the_answer_is_told_whole_though_it_comes_in_pieces() -> None:
+    other = modbus.encode(modbus.HoldingRegisters(0x01, (1, 2)))
+
+    _, events = hear(ask(idle(), WORDS), other[:5], other[5:], WORDS_WIRE)
+
+    assert [(Rejected, other), (Answered, None)] == [(type(event), getattr(event, "wire", None)) for event in events]
+
+
+def test_a_mask_found_at_the_deadline_has_the_length_of_the_model() -> None:
+    command = modbus.ReadChannelMask(0x01)
+    answer = modbus.encode(modbus.ChannelMask(0x01, 0xFF), M7019)
+    beginning_of_a_long_frame = b"\x01\x03\x20"
+
+    bus, nothing = hear(
+        ask(idle(echo=True), command), beginning_of_a_long_frame + modbus.encode(command) + answer + b"\0"
+    )
+    _, events = wake(bus, due(bus))
+
+    assert nothing == ()
+    assert Answered(command, modbus.ChannelMask(0x01, 0xFF)) in events
+
+
 # --- local echo -------------------------------------------------------------------------------------------------------
 
 
