@@ -154,3 +154,10 @@ def test_a_changed_copy_derives_anew() -> None:
 def test_a_code_that_is_no_type_is_not_supported() -> None:
     assert not Profile(Model.M_7019R).supports(0xFF)
     assert Profile(Model.M_7019R).supports(0x0F)
+
+
+def test_the_types_of_a_model_cannot_be_changed() -> None:
+    types: Any = Model.I_7018.type_codes
+
+    with pytest.raises(TypeError):
+        types[TypeCode.V_10] = None

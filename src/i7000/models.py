@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import cached_property, total_ordering
+from types import MappingProxyType
 
 from attrs import field, frozen
 
@@ -159,8 +160,11 @@ class Model(Enum):
         return TypeCode.V_2_5 if self.series == "7018" else TypeCode.V_10
 
     @cached_property
-    def type_codes(self) -> Mapping[TypeCode, Firmware | None]:  # noqa: PLR0911 - a table
+    def type_codes(self) -> Mapping[TypeCode, Firmware | None]:
         """The types it supports, and the firmware from which on (1.11; E35 to E42)."""
+        return MappingProxyType(self._type_codes())
+
+    def _type_codes(self) -> dict[TypeCode, Firmware | None]:  # noqa: PLR0911 - a table
         low, high = _codes(0x00, 0x06), _codes(0x08, 0x0D)
         match self.series, self.suffix:
             case "7017", "R-A5":

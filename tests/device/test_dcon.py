@@ -308,6 +308,15 @@ def test_a_refused_command_does_not_end_soft_init() -> None:
     assert dialogue == held(module, dialogue)
 
 
+def test_soft_init_once_more_begins_its_time_anew() -> None:
+    module = soft()
+    module.wait(1.5)
+    assert module.say("~01I") == "!01"
+    module.wait(1.5)
+
+    assert module.say("%0101080700") == "!01"
+
+
 def test_the_soft_init_time_out_is_0_after_power_on() -> None:
     module = soft()
     module.power_cycle()

@@ -184,6 +184,15 @@ def test_a_full_logger_that_may_overwrite_forgets_the_oldest() -> None:
     ]
 
 
+def test_of_a_long_time_only_the_records_are_made_that_are_kept() -> None:
+    module = logger(period=(0, 0, 1), overwrite=True)
+    module.write("log_command", 1)
+    module.wait(1e12)
+
+    assert len(module.state.eeprom.log.records) == CAPACITY
+    assert module.read("log_last_index") == (10**12 + 1) % 2**32
+
+
 def test_the_logger_goes_on_after_a_power_cycle() -> None:
     module = logger()
     module.write("log_command", 1)

@@ -275,7 +275,12 @@ class Module(RuleBasedStateMachine):
         self.say(f"${self.oracle.address:02X}P")
 
     @precondition(lambda self: self.oracle.protocol == "dcon" and self.oracle.has(HAVE["2.32"]))
-    @rule(data=st.data(), seconds=st.integers(0, 16), between=st.sampled_from(("", "", "$2", "~0")), late=st.booleans())
+    @rule(
+        data=st.data(),
+        seconds=st.integers(0, 16),
+        between=st.sampled_from(("", "", "$2", "~0", "~I")),
+        late=st.booleans(),
+    )
     def line_or_checksum_is_changed_by_soft_init(
         self, data: st.DataObject, seconds: int, between: str, *, late: bool
     ) -> None:

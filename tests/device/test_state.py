@@ -1,5 +1,8 @@
 """What modules remember: from the factory, and what none can have stored."""
 
+import copy
+import pickle
+from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -22,7 +25,7 @@ from i7000 import (
     Unit,
     device,
 )
-from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, factory, power_on, step
+from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, advance, factory, power_on, step
 from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
 from i7000.models import AVAILABILITY, CONFIGURABLE
@@ -68,6 +71,9 @@ def test_the_newest_firmware_has_everything() -> None:
     [
         (Model.I_7018, {"address": 256}),
         (Model.I_7018, {"address": -1}),
+        (Model.I_7018, {"address": 1.5}),
+        (Model.I_7018, {"address": True}),
+        (Model.I_7018, {"address": "1"}),
         (Model.I_7018, {"name": ""}),
         (Model.I_7018, {"name": "7018ABC"}),
         (Model.I_7018, {"name": "70$8"}),
@@ -76,7 +82,9 @@ def test_the_newest_firmware_has_everything() -> None:
         (Model.I_7018, {"type_codes": (TypeCode.V_10,) * 8}),
         (Model.I_7018, {"type_codes": (TypeCode.K, *[TypeCode.J] * 7)}),
         (Model.I_7017Z, {"type_codes": (*[TypeCode.V_10] * 19, TypeCode.K)}),
+        (Model.I_7018, {"type_codes": [TypeCode.K] * 8}),
         (Model.I_7018, {"channel_mask": 0x100}),
+        (Model.I_7018, {"channel_mask": 1.5}),
         (Model.I_7018, {"channel_offsets": (0,) * 9}),
         (Model.I_7018, {"channel_offsets": (128, *[0] * 7)}),
         (Model.I_7019R, {"channel_cjc_offsets": (-4097, *[0] * 7)}),
@@ -106,6 +114,28 @@ def test_a_state_is_frozen_and_keeps_its_profile() -> None:
     assert state.keep(line_settings=LineSettings(BaudRate.BAUD_1200)).profile == state.profile
 
 
+def test_a_state_that_is_made_from_another_by_its_parts_reads_by_its_own() -> None:
+    state = power_on(factory(Model.I_7019R), now=0.0)
+    signals = Signals.of(Unit.CELSIUS, *[100.0] * 8)
+
+    warmer = evolve(state, eeprom=evolve(state.eeprom, type_codes=(TypeCode.K,) * 8, cjc_offset=100))
+    sealed = evolve(state, ram=evolve(state.ram, checksum=True))
+
+    assert warmer.profile.type_codes == (TypeCode.K,) * 8
+    assert fields(warmer, signals) == ("+0101.0",) * 8
+    assert sealed.profile.checksum
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda it: pickle.loads(pickle.dumps(it))])  # noqa: S301
+def test_a_copy_of_a_state_is_equal_to_it_and_reads_the_same(copied: Callable[[State], State]) -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0).store(type_codes=(TypeCode.K,) * 8).keep(checksum=True)
+
+    again = copied(state)
+
+    assert (again, hash(again), again.profile) == (state, hash(state), state.profile)
+    assert fields(again, Signals()) == fields(state, Signals())
+
+
 def test_what_no_module_can_have_stored_is_not_stored() -> None:
     state = power_on(factory(Model.M_7019R), now=0.0)
 
@@ -118,6 +148,8 @@ def test_what_no_module_can_have_stored_is_not_stored() -> None:
     ):
         with pytest.raises(EncodeError):
             state.store(**changes)
+    with pytest.raises(EncodeError, match="type_codes"):
+        power_on(factory(Model.M_7017Z), now=0.0).store(type_codes=(*[TypeCode.V_10] * 19, TypeCode.K))
     with pytest.raises(TypeError, match="colour"):
         state.store(colour="red")
     with pytest.raises(TypeError, match="colour"):
@@ -204,7 +236,29 @@ def test_a_signal_is_a_finite_number(value: Any) -> None:
         Signals(cold_junction=value)
 
 
+@pytest.mark.parametrize("channels", [[Signal(1.0, Unit.VOLT)], (1.0,), None])
+def test_signals_are_a_tuple_of_signals_and_open_wires(channels: Any) -> None:
+    with pytest.raises(EncodeError, match="channels cannot be"):
+        Signals(channels)
+
+
+def test_a_signal_has_a_unit() -> None:
+    with pytest.raises(EncodeError, match="unit cannot be 'V'"):
+        Signal(1.0, "V")  # type: ignore[arg-type]
+
+
 def test_nothing_is_on_a_channel_that_is_not_there() -> None:
     signals = Signals.of(Unit.VOLT, 1.0)
 
     assert [signals.channel(number) for number in (-1, 1, 10**30)] == [OPEN_WIRE] * 3
+
+
+def test_the_count_of_host_watchdog_time_outs_ends_where_its_register_does() -> None:
+    eeprom = evolve(
+        factory(Model.M_7018), host_watchdog_enabled=True, host_watchdog_timeout=1, host_watchdog_timeouts=0xFFFF
+    )
+
+    later = advance(power_on(eeprom, now=0.0), Signals(), 1.0)
+
+    assert later.eeprom.host_watchdog_timed_out
+    assert later.eeprom.host_watchdog_timeouts == 0xFFFF

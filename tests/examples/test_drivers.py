@@ -327,6 +327,15 @@ def test_the_programs_can_be_run(
     assert pytest.approx(VOLTS[::-1], abs=1e-4) == [float(value) for value in values]
 
 
+@pytest.mark.parametrize("wrong", [["--type", "Q"], ["--baud", "9601"], ["--address", "G"], ["--model", "I-7020"]])
+def test_wrong_arguments_end_a_program_with_what_is_wrong(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        sync_driver.main(["/dev/null", "--model", "M-7019R", *wrong])
+
+    assert ended.value.code == 2
+    assert f"argument {wrong[0]}: invalid" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("driver", [sync_driver, async_driver], ids=lambda driver: driver.__name__)
 def test_a_driver_is_short(driver: ModuleType) -> None:
     lines = Path(driver.__file__ or "").read_text(encoding="utf-8").splitlines()

@@ -493,6 +493,28 @@ def test_a_modbus_request_is_repeated_after_silence() -> None:
     assert pytest.approx(deadline - 0.001 + SILENCE) == next_deadline(bus)
 
 
+def test_a_frame_that_is_not_the_answer_is_told_whole_though_it_comes_in_pieces() -> None:
+    other = modbus.encode(modbus.HoldingRegisters(0x01, (1, 2)))
+
+    _, events = hear(ask(idle(), WORDS), other[:5], other[5:], WORDS_WIRE)
+
+    assert [(Rejected, other), (Answered, None)] == [(type(event), getattr(event, "wire", None)) for event in events]
+
+
+def test_a_mask_found_at_the_deadline_has_the_length_of_the_model() -> None:
+    command = modbus.ReadChannelMask(0x01)
+    answer = modbus.encode(modbus.ChannelMask(0x01, 0xFF), M7019)
+    beginning_of_a_long_frame = b"\x01\x03\x20"
+
+    bus, nothing = hear(
+        ask(idle(echo=True), command), beginning_of_a_long_frame + modbus.encode(command) + answer + b"\0"
+    )
+    _, events = wake(bus, due(bus))
+
+    assert nothing == ()
+    assert Answered(command, modbus.ChannelMask(0x01, 0xFF)) in events
+
+
 # --- local echo -------------------------------------------------------------------------------------------------------
 
 
@@ -522,6 +544,27 @@ def test_what_comes_before_the_echo_is_late(command: AnyCommand, heard: bytes, e
     assert (TimedOut(command),) == wake(bus, due(bus))[1]
 
 
+@pytest.mark.parametrize(
+    ("request_", "profile", "response"),
+    [
+        (modbus.ReadChannelMask(0x01), M7019, modbus.ChannelMask(0x01, 0xFF)),
+        (modbus.ReadInputRegisters(0x01, 1024, 1), Profile(Model.M_7017mC_16), modbus.InputRegisters(0x01, (7,))),
+    ],
+    ids=["mask", "count"],
+)
+@pytest.mark.parametrize("whole", [True, False])
+def test_an_echo_is_known_though_a_00_behind_it_makes_a_longer_frame(
+    request_: Any, profile: Profile, response: Any, *, whole: bool
+) -> None:
+    """A CRC stays good when a 00 follows, and so many bytes more is as long as an answer could be."""
+    echo, answer = modbus.encode(request_, profile), modbus.encode(response, profile)
+    pieces = (echo + b"\0" + answer,) if whole else (echo, b"\0", answer)
+
+    _, events = hear(ask(idle(echo=True), request_, profile), *pieces)
+
+    assert (Noise(b"\0", Fault.ADDRESS), Answered(request_, response)) == events
+
+
 def test_a_lost_echo_is_not_made_up_for_by_an_answer_that_looks_like_it() -> None:
     bus, events = hear(ask(idle(echo=True), COIL), COIL_WIRE)
 
@@ -535,6 +578,17 @@ def test_an_echo_that_is_not_expected_is_rejected_or_answers_a_modbus_write() ->
 
     assert [Rejected, Answered] == [type(event) for event in dcon_events]
     assert modbus_events == (COIL_ANSWER,)
+
+
+def test_an_echo_that_is_not_expected_answers_a_read_of_the_mask_if_a_00_follows() -> None:
+    """The module could have said just this, so it cannot be told apart."""
+    command = modbus.ReadChannelMask(0x01)
+    echo = modbus.encode(command)
+
+    _, events = hear(ask(idle(), command), echo + b"\0")
+
+    assert modbus.encode(modbus.ChannelMask(0x01, 0xD3), M7019) == echo + b"\0"
+    assert (Answered(command, modbus.ChannelMask(0x01, 0xD3)),) == events
 
 
 def test_each_try_has_its_echo() -> None:

@@ -24,7 +24,7 @@ from i7000.readings import (
     encode_word,
     make_reading,
 )
-from i7000.settings import CjcUpdate, DataFormat, ModbusDataFormat
+from i7000.settings import DataFormat, ModbusDataFormat
 from i7000.type_codes import TypeCode, Unit
 
 __all__ = ["cold_junction", "faults", "fields", "readings", "sample", "sampled_fields", "temperatures", "words"]
@@ -116,7 +116,7 @@ def _in_twelve_bits(value: float, type_code: TypeCode) -> float:
 def _junction(state: State, signals: Signals) -> float:
     """Tell the temperature of the cold junction as the module knows it: of now, or of when its update ended."""
     held = state.ram.held_cold_junction
-    return signals.cold_junction if state.ram.cjc_update is CjcUpdate.STARTED or held is None else held
+    return signals.cold_junction if held is None else held
 
 
 def cold_junction(state: State, signals: Signals) -> float:

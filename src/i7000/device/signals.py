@@ -16,7 +16,7 @@ __all__ = ["OPEN_WIRE", "Signal", "Signals"]
 class Signal:
     """What is on one input: a voltage, a current, or the temperature of a thermocouple's hot end.
 
-    Errors: `EncodeError` for what is not finite.
+    Errors: `EncodeError` for what is not finite, or has no unit.
     """
 
     value: float
@@ -25,6 +25,8 @@ class Signal:
     def __attrs_post_init__(self) -> None:
         if not is_number(self.value):
             raise EncodeError("value", self.value, "a finite number", "1.11")
+        if not isinstance(self.unit, Unit):
+            raise EncodeError("unit", self.unit, "a Unit", "1.11")
 
 
 OPEN_WIRE = None
@@ -42,7 +44,7 @@ class Signals:
     """What is on all inputs of a module, channel 0 first; those that are not named are open.
 
     Unit: `cold_junction`, the temperature at the terminals, in degrees Celsius.
-    Errors: `EncodeError` for a temperature that no module survives.
+    Errors: `EncodeError` for channels that are no tuple of signals, for a temperature that no module survives.
 
     >>> Signals.of(Unit.VOLT, 1.5, -2.0).channel(1), Signals().channel(7)
     (Signal(value=-2.0, unit=<Unit.VOLT: 'V'>), None)
@@ -52,6 +54,8 @@ class Signals:
     cold_junction: float = field(default=25.0, kw_only=True, converter=_degrees)
 
     def __attrs_post_init__(self) -> None:
+        if not isinstance(self.channels, tuple) or not {Signal, type(OPEN_WIRE)}.issuperset(map(type, self.channels)):
+            raise EncodeError("channels", self.channels, "a tuple of signals and open wires", "1.11")
         if not is_number(self.cold_junction) or not _COLDEST <= self.cold_junction <= _HOTTEST:
             raise EncodeError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
 

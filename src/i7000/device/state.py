@@ -24,6 +24,7 @@ from i7000.settings import (
     ModbusDataFormat,
     Protocol,
     ReportSettings,
+    is_int,
     is_number,
 )
 from i7000.type_codes import TypeCode
@@ -45,8 +46,8 @@ Check = Callable[["Eeprom", "Attribute[Any]", Any], None]
 
 
 def _within(low: int, high: int) -> Check:
-    def check(_: "Eeprom", attribute: "Attribute[Any]", value: int) -> None:
-        if not low <= value <= high:
+    def check(_: "Eeprom", attribute: "Attribute[Any]", value: object) -> None:
+        if not is_int(value, low, high):
             raise EncodeError(attribute.name, value, f"{low}..{high}", "3.4")
 
     return check
@@ -55,8 +56,8 @@ def _within(low: int, high: int) -> Check:
 def _one_each(check: Check | None = None) -> Check:
     def check_all(eeprom: "Eeprom", attribute: "Attribute[Any]", values: tuple[int, ...]) -> None:
         inputs = inputs_of(eeprom.model)
-        if len(values) != inputs:
-            raise EncodeError(attribute.name, values, f"{inputs} of them: {eeprom.model.value}", "1.3")
+        if not isinstance(values, tuple) or len(values) != inputs:
+            raise EncodeError(attribute.name, values, f"a tuple of {inputs}: {eeprom.model.value}", "1.3")
         if check:
             for value in values:
                 check(eeprom, attribute, value)
@@ -64,9 +65,9 @@ def _one_each(check: Check | None = None) -> Check:
     return check_all
 
 
-def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: int) -> None:
+def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: object) -> None:
     most = (1 << inputs_of(eeprom.model)) - 1
-    if not 0 <= mask <= most:
+    if not is_int(mask, 0, most):
         raise EncodeError(attribute.name, mask, f"0..{most}", "3.4")
 
 
@@ -229,7 +230,7 @@ class Ram:
     cjc_update: CjcUpdate = CjcUpdate.STARTED
     """Not kept without power: power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
-    """The cold junction's temperature when its update ended, in degrees Celsius."""
+    """The cold junction's temperature when its update ended, in degrees Celsius; None while it is updated."""
     reset_status_told: bool = False
 
 
@@ -252,14 +253,14 @@ class State:
 
     eeprom: Eeprom
     ram: Ram
-    profile: Profile = field(eq=False, repr=False, kw_only=True)
+    profile: Profile = field(init=False, eq=False, repr=False)
     """What a host would have to know to understand it, now."""
 
     @profile.default
     def _profile(self) -> Profile:
         return profile_of(self.eeprom, checksum=self.ram.checksum)
 
-    inputs: Inputs = field(eq=False, repr=False, kw_only=True)
+    inputs: Inputs = field(init=False, eq=False, repr=False)
 
     @inputs.default
     def _inputs(self) -> Inputs:
@@ -282,14 +283,14 @@ class State:
             profile = profile_of(eeprom, checksum=self.ram.checksum)
             eeprom.check_types(profile)
         inputs = self.inputs if _OF_READINGS.isdisjoint(changes) else Inputs(eeprom)
-        return State(eeprom, self.ram, profile=profile, inputs=inputs)
+        return _state(eeprom, self.ram, profile, inputs)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
         """Change the RAM."""
         ram = _copied(self.ram, changes)
         same = ram.checksum == self.ram.checksum
         profile = self.profile if same else profile_of(self.eeprom, checksum=ram.checksum)
-        return State(self.eeprom, ram, profile=profile, inputs=self.inputs)
+        return _state(self.eeprom, ram, profile, self.inputs)
 
     def switched(self, *, init_switch: bool) -> "State":
         """Move the INIT switch, or INIT* terminal, while the power is on (E17)."""
@@ -304,6 +305,16 @@ class State:
     def enabled(self) -> int:
         """The mask of the channels that are on, of those that the connecting mode has."""
         return self.eeprom.channel_mask & ((1 << self.profile.channels) - 1)
+
+
+def _state(eeprom: Eeprom, ram: Ram, profile: Profile, inputs: Inputs) -> State:
+    """Make a state of which is known what `State` would have to find out."""
+    state = object.__new__(State)
+    object.__setattr__(state, "eeprom", eeprom)
+    object.__setattr__(state, "ram", ram)
+    object.__setattr__(state, "profile", profile)
+    object.__setattr__(state, "inputs", inputs)
+    return state
 
 
 def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:

@@ -43,19 +43,20 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
     parser.add_argument("port", help="the serial port, or any URL that pyserial knows")
     parser.add_argument("--model", type=Model.find, required=True)
     parser.add_argument("--address", type=lambda text: int(text, 16), default=0x01, help="in hex; 01 unless given")
-    parser.add_argument("--type", type=lambda text: TypeCode[text], help="of all channels: K, V_10, MA_4_20 ...")
-    parser.add_argument("--baud", type=int, default=9600)
+    types, rates = TypeCode.__members__, {str(rate.bits_per_second): rate for rate in BaudRate}
+    parser.add_argument("--type", choices=types, metavar="TYPE", help="of all channels: K, V_10, MA_4_20 ...")
+    parser.add_argument("--baud", choices=rates, default="9600")
     parser.add_argument("--checksum", action="store_true", help="DCON frames carry a checksum")
     parser.add_argument("--modbus", action="store_true", help="ask by Modbus RTU instead of DCON")
     parser.add_argument("--echo", action="store_true", help="the adapter hears what it sends")
     given = parser.parse_args(arguments)
     profile = Profile(given.model, checksum=given.checksum)
     if given.type is not None:
-        profile = evolve(profile, type_codes=(given.type,) * profile.channels)
+        profile = evolve(profile, type_codes=(types[given.type],) * profile.channels)
     command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters = dcon.ReadAnalogInputs(given.address)
     if given.modbus:
         command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
-    line = LineSettings(BaudRate[f"BAUD_{given.baud}"])
+    line = LineSettings(rates[given.baud])
     return Task(given.port, Bus[Any](line, echo=given.echo), profile, command)
 
 

@@ -85,7 +85,8 @@ class Bus(Generic[R]):
     policy: Policy = field(factory=Policy)
     echo: bool = False
     """Whether the adapter hears what it sends, as 2-wire ones may. Its echo is dropped, and nothing before it is an
-    answer. A Modbus write whose echo is not expected is answered by it."""
+    answer. A Modbus write whose echo is not expected is answered by it, and so is `i7000.modbus.ReadChannelMask` if a
+    00 follows: with it the echo is a good answer."""
 
     pending: Pending[R] | None = None
     last: Exchange[Any] | None = None
@@ -234,8 +235,11 @@ def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Ev
             events.append(frame)
         elif not request or not request.sent:
             events.append(Late(frame))
-        elif not request.echoed and frame == request.exchange.wire:
+        elif not request.echoed and frame.startswith(request.exchange.wire):
             bus = evolve(bus, pending=evolve(request, echoed=True))
+            surplus = frame[len(request.exchange.wire) :]  # a CRC stays good when 00 follows
+            bus, after = _take(bus, finish(request.exchange, surplus, echo=False))
+            events += after
         elif not request.echoed or not request.exchange.answered:
             events.append(Late(frame))
         else:

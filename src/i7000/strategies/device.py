@@ -118,7 +118,10 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
         host_watchdog_timeout=draw(st.integers(0, 0xFF)),
         host_watchdog_timed_out=draw(st.booleans()),
         host_watchdog_timeouts=draw(_WORD),
+        host_watchdog_mode=draw(st.booleans()),
         response_delay=draw(st.integers(0, 30)),
+        sampling_rate_8_hz=draw(st.booleans()),
+        big_endian=draw(st.booleans()),
         log=draw(logs(now)) if made.model is Model.M_7017mC_16 else made.log,
     )
 
