@@ -11,6 +11,7 @@ from i7000.device import Signal, factory
 from i7000.settings import DataFormat
 from i7000.simulator.simulator import Simulated
 from i7000.simulator.sources import Fixed, Sources
+from tests.crc import crc
 
 __all__ = ["STATIONS", "VALUES", "Exchange", "Station"]
 
@@ -19,16 +20,6 @@ Exchange = tuple[bytes, bytes]
 
 VALUES = range(64)
 """What is written, one after the other."""
-
-
-def crc(body: bytes) -> bytes:
-    """Tell the CRC of Modbus RTU, bit by bit."""
-    value = 0xFFFF
-    for byte in body:
-        value ^= byte
-        for _ in range(8):
-            value = value >> 1 ^ (0xA001 if value & 1 else 0)
-    return value.to_bytes(2, "little")
 
 
 @frozen

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from tests.crc import crc
 from tests.device.oracle import TYPES, Oracle, bits
 from tests.spec.lint import Record, load, rows, table_files
 
@@ -31,16 +32,6 @@ def refuse(code: int, *, when: bool = True) -> None:
     """Answer an exception."""
     if when:
         raise ExceptionError(code)
-
-
-def crc(data: bytes) -> bytes:
-    """The CRC of Modbus, bit by bit."""
-    register = 0xFFFF
-    for byte in data:
-        register ^= byte
-        for _ in range(8):
-            register = register >> 1 ^ (0xA001 if register & 1 else 0)
-    return register.to_bytes(2, "little")
 
 
 def sealed(data: bytes) -> bytes:

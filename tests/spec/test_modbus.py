@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.crc import crc
 from tests.spec import lint
 
 if TYPE_CHECKING:
@@ -30,15 +31,6 @@ READ = {
 }
 WRITE = {"WriteSingleCoil": "coil", "WriteSingleRegister": "holding_register"}
 WRITE_MORE = {"WriteMultipleCoils": "coil", "WriteMultipleRegisters": "holding_register"}
-
-
-def crc(body: bytes) -> bytes:
-    register = 0xFFFF
-    for byte in body:
-        register ^= byte
-        for _ in range(8):
-            register = register >> 1 ^ (0xA001 if register & 1 else 0)
-    return register.to_bytes(2, "little")
 
 
 def sealed(wire: str) -> bool:

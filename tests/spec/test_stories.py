@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.crc import crc
 from tests.spec import lint
 
 if TYPE_CHECKING:
@@ -28,15 +29,6 @@ def steps(story: Record, kind: str) -> Iterator[Record]:
 
 def messages(story: Record) -> list[Record]:
     return [message for step in steps(story, "send") for message in (step["send"], step["expect"]) if message]
-
-
-def crc(data: bytes) -> bytes:
-    register = 0xFFFF
-    for byte in data:
-        register ^= byte
-        for _ in range(8):
-            register = register >> 1 ^ (0xA001 if register & 1 else 0)
-    return register.to_bytes(2, "little")
 
 
 def eyes(wire: bytes) -> str:
