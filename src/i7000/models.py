@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import cached_property, total_ordering
 from types import MappingProxyType
+from typing import NamedTuple
 
 from attrs import field, frozen
 
@@ -297,8 +298,7 @@ TT_UNUSED = series("7017Z", "M-7017mC-16", "7018Z", "7019")
 """The models that ignore TT of ``%AANNTTCCFF``: their channels are set one by one (2.1)."""
 
 
-@frozen
-class Availability:
+class Availability(NamedTuple):
     """Who has a command, in a word for people and as gates."""
 
     scope: str

@@ -18,7 +18,7 @@ Laws: the constructor takes exactly the values that a field's `Item` accepts; wh
 import struct
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial, update_wrapper
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from attrs import fields, frozen
 
@@ -137,8 +137,7 @@ _ADDRESSES = 0x10000
 _WITH_SUB_FUNCTIONS = 0x46
 
 
-@frozen
-class Token:
+class Token(NamedTuple):
     """One token of a PDU."""
 
     name: str

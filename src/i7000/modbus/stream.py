@@ -8,9 +8,7 @@ a 00 after a frame leaves the CRC good, so a shorter would hide a longer. Profil
 
 from enum import StrEnum
 from functools import cache
-from typing import Any
-
-from attrs import frozen
+from typing import Any, NamedTuple
 
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
@@ -37,8 +35,7 @@ class Side(StrEnum):
     __hash__ = str.__hash__  # That of an Enum takes as long as a byte that comes in.
 
 
-@frozen
-class Rule:
+class Rule(NamedTuple):
     """How long a frame is."""
 
     length: int
