@@ -11,11 +11,19 @@ from i7000 import Model, Profile, Protocol, ReportSettings, Unit, dcon, modbus
 from i7000.device import Signals, State, factory, power_on, step
 from i7000.host import Answered, AnyCommand, Bus, Declined, Policy, TimedOut
 from i7000.strategies.dcon import commands
+from i7000.strategies.modbus import requests as modbus_requests
 from tests.host.line import Asked, Line, encode
 
 PROFILE = Profile(Model.M_7019R, checksum=True)
-READS = [kind for kind in dcon.COMMANDS if kind.__name__.startswith("Read") and kind.section not in PROFILE.refused]
+COMMANDS = [
+    kind
+    for kind in dcon.COMMANDS
+    if issubclass(kind, dcon.Command) and kind is not dcon.SetConfiguration and kind.section not in PROFILE.refused
+]
+"""All that leave the module to be found where it is, and understood."""
 RTU = 0x03
+ADDRESS = 484
+"""The register 40485."""
 
 
 def module(address: int) -> State:
@@ -43,13 +51,23 @@ def modules() -> Callable[[AnyCommand], Asked]:
     return asked
 
 
+def _stays(request: modbus.Request[Any]) -> bool:
+    """Whether the module keeps its address."""
+    if isinstance(request, modbus.WriteSingleRegister):
+        return request.register != ADDRESS
+    if isinstance(request, modbus.WriteMultipleRegisters):
+        return not request.start <= ADDRESS < request.start + len(request.values)
+    return not isinstance(request, modbus.SetModuleAddress)
+
+
 def requests() -> st.SearchStrategy[Any]:
     addresses = st.sampled_from((0x01, 0x02))
-    reads = st.builds(evolve, commands(PROFILE, *READS), address=addresses)
+    settings = st.builds(evolve, commands(PROFILE, *COMMANDS), address=addresses)
     inputs = st.builds(dcon.ReadAnalogInputs, addresses)
     registers = st.builds(modbus.ReadInputRegisters, st.just(RTU), st.integers(0, 9), st.integers(1, 8))
     coils = st.builds(modbus.WriteSingleCoil, st.just(RTU), st.just(258), value=st.booleans())
-    return inputs | registers | reads | coils
+    more = modbus_requests(PROFILE).filter(modbus.is_answered).map(lambda it: evolve(it, address=RTU)).filter(_stays)
+    return inputs | registers | settings | coils | more
 
 
 @given(st.data(), st.integers(0, 2), st.booleans(), st.lists(requests(), min_size=1, max_size=6))
