@@ -1,30 +1,24 @@
 """A driver for an event loop: asyncio, the file descriptor of a pyserial port (POSIX) and `i7000.host`."""
 
 import asyncio
-import sys
 from collections.abc import Sequence
-from typing import Any, TypeVar, overload
+from typing import Any, overload
 
 import serial
 
 from i7000 import Profile, dcon, modbus
-from i7000.examples.task import open_port, read_task
+from i7000.examples.task import RD, RM, open_port, read_task
 from i7000.host import AnyCommand, Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
 
 __all__ = ["Driver", "main"]
-
-RD = TypeVar("RD", bound=dcon.Response)
-RM = TypeVar("RM", bound=modbus.Response)
 
 
 class Driver:
     """A port, and what is known of the line that it leads to; any number of tasks may ask."""
 
     def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
-        self.port = port
-        self.bus = bus
-        self.loop = asyncio.get_running_loop()
-        self.turn = asyncio.Lock()
+        self.port, self.bus = port, bus
+        self.loop, self.turn = asyncio.get_running_loop(), asyncio.Lock()
         self.outcome: asyncio.Future[Outcome[Any]] = self.loop.create_future()
         self.timer: asyncio.TimerHandle | None = None
         self.loop.add_reader(port.fileno(), self._called)
@@ -82,4 +76,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(main())

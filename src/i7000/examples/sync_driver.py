@@ -1,20 +1,16 @@
 """A driver that waits: pyserial and `i7000.host`, nothing else."""
 
-import sys
 from collections.abc import Sequence
 from time import monotonic
-from typing import Any, TypeVar, overload
+from typing import Any, overload
 
 import serial
 
 from i7000 import Profile, dcon, modbus
-from i7000.examples.task import open_port, read_task
+from i7000.examples.task import RD, RM, open_port, read_task
 from i7000.host import Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
 
 __all__ = ["Driver", "main"]
-
-RD = TypeVar("RD", bound=dcon.Response)
-RM = TypeVar("RM", bound=modbus.Response)
 
 
 class Driver:
@@ -57,4 +53,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(main())

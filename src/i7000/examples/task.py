@@ -2,7 +2,7 @@
 
 from argparse import ArgumentParser
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import serial
 from attrs import evolve, frozen
@@ -10,7 +10,11 @@ from attrs import evolve, frozen
 from i7000 import BaudRate, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
 from i7000.host import Answered, Bus, Outcome
 
-__all__ = ["Task", "open_port", "read_task"]
+__all__ = ["RD", "RM", "Task", "open_port", "read_task"]
+
+RD = TypeVar("RD", bound=dcon.Response)
+RM = TypeVar("RM", bound=modbus.Response)
+"""The response of a command, by either protocol."""
 
 
 @frozen
