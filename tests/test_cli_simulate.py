@@ -83,6 +83,17 @@ def test_modules_are_there_until_ctrl_c(run: Run) -> None:
     assert answers == [SAID, b"!017019R\r"]
 
 
+def test_modules_that_would_answer_at_once_are_told(run: Run) -> None:
+    def told(*texts: str) -> str:
+        models = [word for text in texts for word in ("--model", text)]
+        return simulated(run, *models, "--tcp", "0", meanwhile=lambda: sleep(0.3)).err
+
+    assert told("I-7018", "I-7018,address=01") == (
+        "i7000: several modules have address 01 and speak DCON: their answers collide\n"
+    )
+    assert told("I-7018", "M-7018,address=01") == ""
+
+
 def test_all_ways_to_get_there_lead_to_the_same_modules(run: Run) -> None:
     tcp, rfc2217 = free_port(), free_port()
     answers = []

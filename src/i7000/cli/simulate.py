@@ -5,7 +5,8 @@ Laws: what some options need and others do not is imported when it is asked for.
 
 import asyncio
 import signal
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AsyncExitStack, suppress
 from functools import partial
 from pathlib import Path
@@ -18,8 +19,9 @@ from i7000.cli.text import Printer
 from i7000.cli.traffic import lines
 from i7000.cli.view import View
 from i7000.cli.words import UsageError, near
-from i7000.device import Eeprom
+from i7000.device import Eeprom, State
 from i7000.errors import EncodeError, I7000Error
+from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated, Simulator
@@ -150,6 +152,8 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
 
         simulator.store = partial(save, simulated.memory)
         simulator.store([module.eeprom for module in simulated.modules])
+    for address, protocol in _shared(simulator.bus.modules):
+        printer.error(f"several modules have address {address:02X} and speak {protocol.name}: their answers collide")
     async with AsyncExitStack() as opened:
         places = await _open(simulated, simulator, opened)
         with suppress(NotImplementedError):  # Windows: Ctrl-C is an exception there.
@@ -161,6 +165,12 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
         simulator.observe = _observer(simulated.view, printer, simulator, places, opened)
         await simulator.run()
     return 0
+
+
+def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
+    """Tell the addresses that several modules of one protocol have."""
+    counted = Counter((module.ram.address, module.ram.protocol) for module in modules)
+    return [key for key, count in counted.items() if count > 1]
 
 
 async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitStack) -> list[str]:
