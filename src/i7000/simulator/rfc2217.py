@@ -16,6 +16,19 @@ __all__ = ["Rfc2217Connection"]
 _LONGEST_SUBOPTION = 256
 
 
+def _setting(name: str) -> property:
+    """Make a setting of `Port` of what its host's `Uart` calls `name`."""
+
+    def get(port: "Port") -> Any:  # noqa: ANN401 - of any setting
+        return getattr(port.host.uart, name)
+
+    def put(port: "Port", value: object) -> None:
+        uart: Any = port.host.uart
+        port.host.uart = evolve(uart, **{name: value})
+
+    return property(get, put)
+
+
 class Port:
     """What `PortManager` takes for a serial port: settings of a host's end of the line.
 
@@ -24,50 +37,14 @@ class Port:
 
     xonxoff = rtscts = dtr = rts = break_condition = ri = False
     cts = dsr = cd = True
+    baudrate = _setting("rate")
+    bytesize = _setting("data_bits")
+    parity = _setting("parity")
+    stopbits = _setting("stop_bits")
 
     def __init__(self, host: Host) -> None:
         self.host = host
         host.uart = Uart()
-
-    @property
-    def baudrate(self) -> int:
-        """Bits per second."""
-        return self._uart.rate
-
-    @baudrate.setter
-    def baudrate(self, rate: int) -> None:
-        self.host.uart = evolve(self._uart, rate=rate)
-
-    @property
-    def bytesize(self) -> int:
-        """Data bits."""
-        return self._uart.data_bits
-
-    @bytesize.setter
-    def bytesize(self, bits: int) -> None:
-        self.host.uart = evolve(self._uart, data_bits=bits)
-
-    @property
-    def parity(self) -> str:
-        """``N``, ``E``, ``O``, ``M`` or ``S``."""
-        return self._uart.parity
-
-    @parity.setter
-    def parity(self, parity: str) -> None:
-        self.host.uart = evolve(self._uart, parity=parity)
-
-    @property
-    def stopbits(self) -> float:
-        """Stop bits."""
-        return self._uart.stop_bits
-
-    @stopbits.setter
-    def stopbits(self, bits: float) -> None:
-        self.host.uart = evolve(self._uart, stop_bits=bits)
-
-    @property
-    def _uart(self) -> Uart:
-        return self.host.uart or Uart()
 
     def reset_input_buffer(self) -> None:
         """Forget what came in: nothing is kept."""
