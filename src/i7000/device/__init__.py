@@ -3,6 +3,10 @@
 `factory` and `power_on` make a module, `step` lets it hear a frame, `advance` lets time pass; a `Bus` is several, which
 hear what hosts send in whatever pieces. A power cycle is ``power_on(state.eeprom, now=now)``. Where the manual is
 silent the docstrings say what is assumed, with the id of ``spec/errata.json`` where there is one.
+Parts: `state` is what a module remembers, `signals` what is on its inputs, `measurement` what it makes of them,
+`logger` its data logger and clock; `module` says whom a frame is for, `dcon` and `modbus` are the two doors,
+`registers` the address map behind the second, `call` what comes in, `changes` what both do; `bus` and `uart` are the
+line.
 """
 
 from i7000.device.bus import Bus, Ear, Heard

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from attrs import evolve, field, frozen
 
 from i7000 import dcon, modbus
-from i7000.device.module import advance, step
+from i7000.device.module import is_for, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.device.uart import Uart, hear_at
@@ -92,9 +92,6 @@ class Bus:
             raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
         after, answers = [], []
         for module, own in zip(self.modules, signals, strict=True):
-            if not _hears(module, frame):
-                after.append(advance(module, own, now))
-                continue
             state, answer = step(module, frame, own, now)
             after.append(state)
             if answer is not None:
@@ -170,7 +167,7 @@ class Bus:
         after = list(self.modules)
         for place, module in zip(places, listening.modules, strict=True):
             after[place] = module
-        asked = next((place for place in places if _is_for(self.modules[place], frame)), None)
+        asked = next((place for place in places if is_for(self.modules[place], frame)), None)
         if asked is None:
             return Bus(tuple(after)), Heard(frame, reception.protocol)
         if answer is not None and ear.uart is not None and reception.uart is not None:
@@ -192,22 +189,6 @@ def _reception(module: State, ear: Ear) -> Reception:
 def _reception_at(protocol: Protocol, line: LineSettings, uart: Uart) -> Reception:
     own = Uart.of(line)
     return Reception(protocol, None if own.sounds_like(uart) else own)
-
-
-def _is_for(module: State, frame: bytes) -> bool:
-    address = module.ram.address
-    return frame[0] == address if module.ram.protocol is Protocol.MODBUS_RTU else frame[1:3] == _IN_DCON[address]
-
-
-_IN_DCON = tuple([b"%02X" % address for address in range(0x100)])
-
-
-def _hears(module: State, frame: bytes) -> bool:
-    """Whether a frame could do anything to a module: to all others it is but time."""
-    if module.ram.protocol is Protocol.MODBUS_RTU:
-        return frame[:1] == b"\0" or frame[:1] == bytes((module.ram.address,))
-    to = frame[1:3]
-    return to == _IN_DCON[module.ram.address] or to == b"**"
 
 
 def _is_mixed(found: list[tuple[Reception, bytes | Noise]]) -> bool:

@@ -6,9 +6,9 @@ host (E106, assumption).
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
 
 from i7000 import dcon
+from i7000.device.call import Call
 from i7000.device.changes import (
     enable_channels,
     set_address,
@@ -19,7 +19,7 @@ from i7000.device.changes import (
 )
 from i7000.device.measurement import cold_junction, faults, fields, sample, sampled_fields
 from i7000.device.signals import Signals
-from i7000.device.state import Eeprom, State
+from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError
 from i7000.settings import DataFormat
 from i7000.type_codes import MIXED
@@ -27,37 +27,17 @@ from i7000.type_codes import MIXED
 __all__ = ["step"]
 
 
-class _Call(NamedTuple):
-    """A command, and all that its answer can depend on."""
-
-    state: State
-    command: Any
-    signals: Signals
-    now: float
-
-    @property
-    def eeprom(self) -> Eeprom:
-        return self.state.eeprom
-
-    @property
-    def address(self) -> int:
-        address: int = self.command.address
-        return address
-
-
 class _RefusedError(Exception):
     """The module cannot carry out a command."""
 
 
 def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-    """Hear a frame: the state after it, and the answer or None for silence."""
-    if frame[1:3] not in (b"%02X" % state.ram.address, b"**"):
-        return state, None
+    """Hear a frame for this module or for all: the state after it, and the answer or None for silence."""
     try:
         command = dcon.decode_command(frame, state.profile)
     except DecodeError:
         return state, None
-    call = _Call(state, command, signals, now)
+    call = Call(state, command, signals, now)
     if isinstance(command, dcon.Broadcast):
         return _BROADCASTS[type(command)](call), None
     try:
@@ -69,43 +49,43 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
     return after, dcon.encode(response, state.profile)
 
 
-def _carry_out(call: _Call) -> tuple[State, dcon.Response]:
+def _carry_out(call: Call) -> tuple[State, dcon.Response]:
     try:
-        call.command.check(call.state.profile)
+        call.message.check(call.state.profile)
     except EncodeError:
         raise _RefusedError from None
-    kind = type(call.command)
+    kind = type(call.message)
     if kind in _TOLD:
         return call.state, _TOLD[kind](call)
     if kind is dcon.ReadSynchronizedData:
         return _tell_sampled(call)
-    return _DONE[kind](call), dcon.Acknowledged(call.command.answering_address)
+    return _DONE[kind](call), dcon.Acknowledged(call.message.answering_address)
 
 
 # --- what it tells ----------------------------------------------------------------------------------------------------
 
 
-def _configuration(call: _Call) -> dcon.Configuration:
+def _configuration(call: Call) -> dcon.Configuration:
     """Tell what is stored; in INIT mode the address too (E18, assumption)."""
     address = call.eeprom.address if call.state.ram.init_mode else call.address
     return dcon.Configuration(address, type_code(call.state), call.eeprom.line_settings, call.eeprom.report_settings)
 
 
-def _watchdog_status(call: _Call) -> dcon.HostWatchdogStatus:
+def _watchdog_status(call: Call) -> dcon.HostWatchdogStatus:
     status = call.eeprom.host_watchdog_enabled << 7 | call.eeprom.host_watchdog_timed_out << 2
     return dcon.HostWatchdogStatus(call.address, status)
 
 
-def _diagnostics(call: _Call) -> dcon.Diagnostics:
+def _diagnostics(call: Call) -> dcon.Diagnostics:
     bits = faults(call.state, call.signals, call.state.profile.channels)
     return dcon.Diagnostics(call.address, dcon.mask_of(channel for channel, bit in enumerate(bits) if bit))
 
 
-def _one_input(call: _Call) -> dcon.AnalogInput:
-    return dcon.AnalogInput(fields(call.state, call.signals)[call.command.channel])
+def _one_input(call: Call) -> dcon.AnalogInput:
+    return dcon.AnalogInput(fields(call.state, call.signals)[call.message.channel])
 
 
-_TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
+_TOLD: dict[type, Callable[[Call], dcon.Response]] = {
     dcon.ReadAnalogInputs: lambda it: dcon.AnalogInputs(fields(it.state, it.signals)),
     dcon.ReadAnalogInput: _one_input,
     dcon.ReadAnalogInputsHex: lambda it: dcon.AnalogInputsHex(fields(it.state, it.signals, DataFormat.HEX)),
@@ -113,7 +93,7 @@ _TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
     dcon.ReadCjcTemperature: lambda it: dcon.CjcTemperature(round(cold_junction(it.state, it.signals), 1)),
     dcon.ReadChannelMask: lambda it: dcon.ChannelMask(it.address, it.state.enabled),
     dcon.ReadChannelTypeCode: lambda it: dcon.ChannelTypeCode(
-        it.address, it.command.channel, it.eeprom.type_codes[it.command.channel]
+        it.address, it.message.channel, it.eeprom.type_codes[it.message.channel]
     ),
     dcon.ReadCjcOffset: lambda it: dcon.CjcOffset(it.address, it.eeprom.cjc_offset),
     dcon.ReadCjcUpdate: lambda it: dcon.CjcUpdateSetting(it.address, it.state.ram.cjc_update),
@@ -131,7 +111,7 @@ _TOLD: dict[type, Callable[[_Call], dcon.Response]] = {
 }
 
 
-def _tell_sampled(call: _Call) -> tuple[State, dcon.SynchronizedData]:
+def _tell_sampled(call: Call) -> tuple[State, dcon.SynchronizedData]:
     """Tell what was sampled at the last ``#**``, in the data format of now (E108); refuse if there was none."""
     ram = call.state.ram
     if ram.sampled is None:
@@ -144,13 +124,13 @@ def _tell_sampled(call: _Call) -> tuple[State, dcon.SynchronizedData]:
 # --- what it does -----------------------------------------------------------------------------------------------------
 
 
-def _set_configuration(call: _Call) -> State:
+def _set_configuration(call: Call) -> State:
     """Set the configuration: all at once but line and checksum, which take permission.
 
     Special: the INIT switch allows them for the next power-on, a soft INIT at once; with both, as the switch.
     Manual: 2.1; E17, E20, E81, E101, E107.
     """
-    state, command, ram = call.state, call.command, call.state.ram
+    state, command, ram = call.state, call.message, call.state.ram
     line, report = command.line_settings, command.report_settings
     soft_init = ram.soft_init_until is not None and call.now < ram.soft_init_until
     locked = line != call.eeprom.line_settings or report.checksum != call.eeprom.report_settings.checksum
@@ -164,25 +144,25 @@ def _set_configuration(call: _Call) -> State:
     return state
 
 
-def _calibrate(call: _Call) -> State:
+def _calibrate(call: Call) -> State:
     """Calibrate, if that is enabled; the model has nothing to calibrate (E33, E86)."""
     if not call.state.ram.calibration_enabled:
         raise _RefusedError
     return call.state
 
 
-def _set_protocol(call: _Call) -> State:
+def _set_protocol(call: Call) -> State:
     if not call.state.ram.init_switch:
         raise _RefusedError
-    return call.state.store(protocol=call.command.protocol)
+    return call.state.store(protocol=call.message.protocol)
 
 
-def _soft_init(call: _Call) -> State:
+def _soft_init(call: Call) -> State:
     """Allow the next command to change line and checksum for the time that was set before (E20, E32, E107)."""
     return call.state.keep(soft_init_until=call.now + call.state.ram.soft_init_timeout)
 
 
-_DONE: dict[type, Callable[[_Call], State]] = {
+_DONE: dict[type, Callable[[Call], State]] = {
     dcon.SetConfiguration: _set_configuration,
     dcon.CalibrateSpan: _calibrate,
     dcon.CalibrateZero: _calibrate,
@@ -191,25 +171,25 @@ _DONE: dict[type, Callable[[_Call], State]] = {
     dcon.CalibrateChannelSpan: _calibrate,
     dcon.CalibrateInternally: lambda it: it.state,
     dcon.ReloadDefaultCalibration: lambda it: it.state,
-    dcon.SetCalibrationEnabled: lambda it: it.state.keep(calibration_enabled=it.command.enabled),
-    dcon.SetChannelMask: lambda it: enable_channels(it.state, it.command.mask, (1 << it.state.profile.channels) - 1),
-    dcon.SetChannelTypeCode: lambda it: set_types(it.state, it.command.type_code, (it.command.channel,)),
-    dcon.SetCjcOffset: lambda it: it.state.store(cjc_offset=it.command.offset),
-    dcon.SetCjcUpdate: lambda it: set_cjc_update(it.state, it.command.update, it.signals),
+    dcon.SetCalibrationEnabled: lambda it: it.state.keep(calibration_enabled=it.message.enabled),
+    dcon.SetChannelMask: lambda it: enable_channels(it.state, it.message.mask, (1 << it.state.profile.channels) - 1),
+    dcon.SetChannelTypeCode: lambda it: set_types(it.state, it.message.type_code, (it.message.channel,)),
+    dcon.SetCjcOffset: lambda it: it.state.store(cjc_offset=it.message.offset),
+    dcon.SetCjcUpdate: lambda it: set_cjc_update(it.state, it.message.update, it.signals),
     dcon.SetProtocol: _set_protocol,
-    dcon.SetCjcEnabled: lambda it: it.state.store(cjc_enabled=it.command.enabled),
+    dcon.SetCjcEnabled: lambda it: it.state.store(cjc_enabled=it.message.enabled),
     dcon.SoftInit: _soft_init,
-    dcon.SetModuleName: lambda it: it.state.store(name=it.command.name),
-    dcon.SetSoftInitTimeout: lambda it: it.state.keep(soft_init_timeout=it.command.timeout),
+    dcon.SetModuleName: lambda it: it.state.store(name=it.message.name),
+    dcon.SetSoftInitTimeout: lambda it: it.state.keep(soft_init_timeout=it.message.timeout),
     dcon.ResetHostWatchdogStatus: lambda it: it.state.store(host_watchdog_timed_out=False),
     dcon.SetHostWatchdogTimeout: lambda it: set_host_watchdog(
-        it.state, it.now, enabled=it.command.enabled, timeout=it.command.timeout
+        it.state, it.now, enabled=it.message.enabled, timeout=it.message.timeout
     ),
-    dcon.SetOpenWireDetection: lambda it: it.state.store(open_wire_detection=it.command.enabled),
-    dcon.SetConnectingMode: lambda it: it.state.store(single_ended=it.command.single_ended),
+    dcon.SetOpenWireDetection: lambda it: it.state.store(open_wire_detection=it.message.enabled),
+    dcon.SetConnectingMode: lambda it: it.state.store(single_ended=it.message.single_ended),
 }
 
-_BROADCASTS: dict[type, Callable[[_Call], State]] = {
+_BROADCASTS: dict[type, Callable[[Call], State]] = {
     dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=sample(it.state, it.signals), sampled_data_told=False),
     dcon.HostOk: lambda it: it.state.keep(fed_at=it.now),
 }

@@ -6,15 +6,16 @@ of life of the host (E106, assumption: the protocol has no other).
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from attrs import evolve
 
 from i7000 import modbus
+from i7000.device.call import Call
 from i7000.device.changes import enable_channels, set_address, set_cjc_update, set_line, set_types
-from i7000.device.registers import Context, RequestError, firmware_bytes, read, series_bytes, write
+from i7000.device.registers import RequestError, firmware_bytes, read, series_bytes, write
 from i7000.device.signals import Signals
-from i7000.device.state import Eeprom, State
+from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus import Area, ExceptionCode
 from i7000.settings import Filter
@@ -22,35 +23,15 @@ from i7000.settings import Filter
 __all__ = ["step"]
 
 
-class _Call(NamedTuple):
-    """A request, and all that its answer can depend on."""
-
-    state: State
-    request: Any
-    signals: Signals
-    now: float
-
-    @property
-    def eeprom(self) -> Eeprom:
-        return self.state.eeprom
-
-    @property
-    def address(self) -> int:
-        address: int = self.request.address
-        return address
-
-
 def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-    """Hear a frame: the state after it, and the answer or None for silence."""
-    if not frame or frame[0] not in (state.ram.address, modbus.BROADCAST):
-        return state, None
+    """Hear a frame for this module or for all: the state after it, and the answer or None for silence."""
     try:
         request = modbus.decode_request(frame, state.profile)
     except DecodeError as error:
         code = _code_of(error, state)
         return state, None if code is None else _exception(frame[0], frame[1], code, state)
     try:
-        after, response = _carry_out(_Call(state, request, signals, now))
+        after, response = _carry_out(Call(state, request, signals, now))
     except RequestError as error:
         after, response = state, modbus.ExceptionResponse(request.address, request.function, error.code)
     else:
@@ -93,8 +74,8 @@ def _exception(address: int, function: int, code: ExceptionCode, state: State) -
     return modbus.encode(modbus.ExceptionResponse(address, function, code), state.profile) if function else None
 
 
-def _carry_out(call: _Call) -> tuple[State, modbus.Response]:
-    request, profile = call.request, call.state.profile
+def _carry_out(call: Call) -> tuple[State, modbus.Response]:
+    request, profile = call.message, call.state.profile
     code = _unsupported(request.section, call.state)
     if code is not None:
         raise RequestError(code)
@@ -106,10 +87,11 @@ def _carry_out(call: _Call) -> tuple[State, modbus.Response]:
     if kind in _READ:
         area, response = _READ[kind]
         asked = range(request.start, request.start + request.count)
-        state, items = read(Context(call.state, call.signals, call.now), area, asked)
+        state, items = read(call, area, asked)
         return state, response(call.address, tuple(map(bool, items)) if area.bits else items)
     if kind in _WRITTEN:
-        return _write(call, *_WRITTEN[kind](request))
+        area, start, written, acknowledgement = _WRITTEN[kind](request)
+        return write(call, area, start, written), acknowledgement
     if kind in _TOLD:
         return call.state, _TOLD[kind](call)
     return _DONE[kind](call), _acknowledgement(call)
@@ -143,32 +125,26 @@ _WRITTEN: dict[type, Callable[[Any], tuple[Area, int, tuple[int, ...], modbus.Re
 """Where a request writes what, and what answers it."""
 
 
-def _write(
-    call: _Call, area: Area, start: int, items: tuple[int, ...], response: modbus.Response
-) -> tuple[State, modbus.Response]:
-    return write(Context(call.state, call.signals, call.now), area, start, items), response
-
-
 # --- function 46h -----------------------------------------------------------------------------------------------------
 
 
-def _miscellaneous(call: _Call) -> int:
+def _miscellaneous(call: Call) -> int:
     report = call.eeprom.report_settings
     return report.filter.value << 7 | report.fast_mode << 5
 
 
-def _offset(call: _Call) -> int:
+def _offset(call: Call) -> int:
     """Tell the offset of the module, or of a channel as a byte (E62)."""
-    channel = call.request.channel
+    channel = call.message.channel
     return call.eeprom.channel_offsets[channel - 0x80] & 0xFF if channel else call.eeprom.cjc_offset
 
 
-_TOLD: dict[type, Callable[[_Call], modbus.Response]] = {
+_TOLD: dict[type, Callable[[Call], modbus.Response]] = {
     modbus.ReadModuleName: lambda it: modbus.ModuleName(it.address, series_bytes(it.eeprom.model)),
     modbus.ReadCommunicationSettings: lambda it: modbus.CommunicationSettings(
         it.address, it.eeprom.line_settings, it.eeprom.protocol
     ),
-    modbus.ReadTypeCode: lambda it: modbus.TypeCodeSetting(it.address, it.eeprom.type_codes[it.request.channel]),
+    modbus.ReadTypeCode: lambda it: modbus.TypeCodeSetting(it.address, it.eeprom.type_codes[it.message.channel]),
     modbus.ReadFirmwareVersion: lambda it: modbus.FirmwareVersion(it.address, *firmware_bytes(it.eeprom.firmware)),
     modbus.ReadChannelMask: lambda it: modbus.ChannelMask(it.address, it.state.enabled),
     modbus.ReadMiscellaneousSettings: lambda it: modbus.MiscellaneousSettings(it.address, _miscellaneous(it)),
@@ -178,19 +154,19 @@ _TOLD: dict[type, Callable[[_Call], modbus.Response]] = {
 }
 
 
-def _set_type_code(call: _Call) -> State:
-    return set_types(call.state, call.request.type_code, (call.request.channel,))
+def _set_type_code(call: Call) -> State:
+    return set_types(call.state, call.message.type_code, (call.message.channel,))
 
 
-def _set_miscellaneous(call: _Call) -> State:
-    report, settings = call.eeprom.report_settings, call.request.settings
+def _set_miscellaneous(call: Call) -> State:
+    report, settings = call.eeprom.report_settings, call.message.settings
     fast_mode, mains = bool(settings & 0x20), Filter(bool(settings & 0x80))
     return call.state.store(report_settings=evolve(report, fast_mode=fast_mode, filter=mains))
 
 
-def _set_offset(call: _Call) -> State:
+def _set_offset(call: Call) -> State:
     """Set the offset of the module, or of a channel from its byte (E62)."""
-    channel, offset = call.request.channel, call.request.offset
+    channel, offset = call.message.channel, call.message.offset
     if not channel:
         return call.state.store(cjc_offset=offset)
     offsets = list(call.eeprom.channel_offsets)
@@ -198,21 +174,21 @@ def _set_offset(call: _Call) -> State:
     return call.state.store(channel_offsets=tuple(offsets))
 
 
-_DONE: dict[type, Callable[[_Call], State]] = {
-    modbus.SetModuleAddress: lambda it: set_address(it.state, it.request.new_address),
-    modbus.SetCommunicationSettings: lambda it: set_line(it.state, it.request.line_settings, it.request.protocol),
+_DONE: dict[type, Callable[[Call], State]] = {
+    modbus.SetModuleAddress: lambda it: set_address(it.state, it.message.new_address),
+    modbus.SetCommunicationSettings: lambda it: set_line(it.state, it.message.line_settings, it.message.protocol),
     modbus.SetTypeCode: _set_type_code,
-    modbus.SetChannelMask: lambda it: enable_channels(it.state, it.request.mask, (1 << it.state.profile.channels) - 1),
+    modbus.SetChannelMask: lambda it: enable_channels(it.state, it.message.mask, (1 << it.state.profile.channels) - 1),
     modbus.SetMiscellaneousSettings: _set_miscellaneous,
     modbus.SetCjcOffset: _set_offset,
-    modbus.SetCjcEnabled: lambda it: it.state.store(cjc_enabled=it.request.enabled),
-    modbus.SetCjcUpdate: lambda it: set_cjc_update(it.state, it.request.update, it.signals),
+    modbus.SetCjcEnabled: lambda it: it.state.store(cjc_enabled=it.message.enabled),
+    modbus.SetCjcUpdate: lambda it: set_cjc_update(it.state, it.message.update, it.signals),
 }
 
 
-def _acknowledgement(call: _Call) -> modbus.Response:
+def _acknowledgement(call: Call) -> modbus.Response:
     """Say that a setting was made: from the old address, if it was that (E90)."""
-    if isinstance(call.request, modbus.SetCommunicationSettings):
+    if isinstance(call.message, modbus.SetCommunicationSettings):
         return modbus.CommunicationSettingsResult(call.address, 0, 0)
-    response: modbus.Response = call.request.response(call.address, 0)
+    response: modbus.Response = call.message.response(call.address, 0)
     return response

@@ -8,7 +8,7 @@ from i7000.errors import EncodeError
 from i7000.models import Model
 from i7000.settings import Protocol, is_number
 
-__all__ = ["advance", "step"]
+__all__ = ["advance", "is_for", "step"]
 
 _MOST_TIMEOUTS = 0xFFFF
 
@@ -28,8 +28,28 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
     b'>+1.5000\r'
     """
     state = advance(state, signals, now)
-    speak = modbus.step if state.ram.protocol is Protocol.MODBUS_RTU else dcon.step
+    if not is_for(state, frame) and not _is_for_all(state, frame):
+        return state, None
+    speak = modbus.step if _speaks_modbus(state) else dcon.step
     return speak(state, frame, signals, now)
+
+
+def is_for(state: State, frame: bytes) -> bool:
+    """Whether a frame has the address of this module."""
+    address = state.ram.address
+    return frame[:1] == _BYTES[address] if _speaks_modbus(state) else frame[1:3] == _DIGITS[address]
+
+
+def _is_for_all(state: State, frame: bytes) -> bool:
+    return frame[:1] == b"\0" if _speaks_modbus(state) else frame[1:3] == b"**"
+
+
+def _speaks_modbus(state: State) -> bool:
+    return state.ram.protocol is Protocol.MODBUS_RTU
+
+
+_BYTES = tuple([bytes((address,)) for address in range(0x100)])
+_DIGITS = tuple([b"%02X" % address for address in range(0x100)])
 
 
 def advance(state: State, signals: Signals, now: float) -> State:

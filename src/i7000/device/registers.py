@@ -6,10 +6,11 @@ DCON commands is said here. A write is made as a whole or not at all.
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 from attrs import evolve
 
+from i7000.device.call import Call
 from i7000.device.changes import (
     enable_channels,
     set_address,
@@ -21,8 +22,7 @@ from i7000.device.changes import (
 )
 from i7000.device.logger import DATE_PARTS, LogCommand, changed, date_of
 from i7000.device.measurement import cold_junction, faults, temperatures, words
-from i7000.device.signals import Signals
-from i7000.device.state import Eeprom, State
+from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError
 from i7000.modbus import Access, Area, ExceptionCode, Kind, Register, SetCommunicationSettings
 from i7000.modbus.register_values import counts_of, values_of
@@ -30,7 +30,7 @@ from i7000.modbus.registers import rows
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
 
-__all__ = ["Context", "RequestError", "firmware_bytes", "read", "series_bytes", "write"]
+__all__ = ["RequestError", "firmware_bytes", "read", "series_bytes", "write"]
 
 
 class RequestError(Exception):
@@ -41,26 +41,6 @@ class RequestError(Exception):
         """The code of the exception."""
         code: ExceptionCode = self.args[0]
         return code
-
-
-class Context(NamedTuple):
-    """What a read or a write can depend on."""
-
-    state: State
-    signals: Signals
-    now: float
-    values: tuple[Any, ...] = ()
-    """What is written."""
-
-    @property
-    def eeprom(self) -> Eeprom:
-        """What the module has stored."""
-        return self.state.eeprom
-
-    @property
-    def value(self) -> Any:  # noqa: ANN401 - what the row holds
-        """The value that is written to a row of one."""
-        return self.values[0]
 
 
 @lru_cache(maxsize=256)
@@ -97,29 +77,29 @@ def _spans(
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
-def read(context: Context, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
+def read(call: Call, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
     """Read coils, inputs or registers: the state after it, and what they hold.
 
     Special: reading the reset status ends it. Log records are read whole.
     Errors: `RequestError`, see `_spans`; 03 for a part of a log record.
     """
-    state, eeprom = context.state, context.eeprom
+    state, eeprom = call.state, call.eeprom
     found: tuple[int, ...] = ()
     for row, at in _spans(eeprom.model, eeprom.firmware.text, area, asked, Access.WRITE):
         if row.kind is Kind.RECORD and (at % Kind.RECORD.width or len(asked) % Kind.RECORD.width):
             raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
-        found += _words_of(row, context)[at : at + len(asked) - len(found)]
+        found += _words_of(row, call)[at : at + len(asked) - len(found)]
         if row.name == "reset_status":
             state = state.keep(reset_status_told=True)
     return state, found
 
 
-def _words_of(row: Register, context: Context) -> tuple[int, ...]:
+def _words_of(row: Register, call: Call) -> tuple[int, ...]:
     """Tell what all items of a row hold, as bits or words."""
-    values = _READ[row.name](context)
+    values = _READ[row.name](call)
     items: tuple[int, ...] = (values,) if isinstance(values, int) else tuple(values)
     if row.kind is Kind.UINT32:
-        return counts_of(row, items[0], context.state.profile, big_endian=context.eeprom.big_endian)
+        return counts_of(row, items[0], call.state.profile, big_endian=call.eeprom.big_endian)
     mask = 0xFF if row.kind is Kind.INT8 else 0xFFFF
     return tuple([item & mask for item in items])
 
@@ -141,33 +121,33 @@ def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
     return int(letter, 36), int(major), int(minor)
 
 
-def _records(context: Context) -> list[int]:
+def _records(call: Call) -> list[int]:
     """Tell the records from the read index on; where there is none, zeros (E109)."""
     words: list[int] = []
-    for record in context.eeprom.log.window():
+    for record in call.eeprom.log.window():
         if record is None:
             words += (0,) * Kind.RECORD.width
         else:
             time = (record.time & 0xFFFF, record.time >> 16)
-            words += record.words + (time[::-1] if context.eeprom.big_endian else time)
+            words += record.words + (time[::-1] if call.eeprom.big_endian else time)
     return words
 
 
-def _clock(at: int) -> Callable[[Context], int]:
+def _clock(at: int) -> Callable[[Call], int]:
     return lambda it: date_of(it.eeprom.log.clock(it.now))[at]
 
 
-def _log_date(name: str, at: int) -> Callable[[Context], int]:
+def _log_date(name: str, at: int) -> Callable[[Call], int]:
     return lambda it: getattr(it.eeprom.log, name)[at]
 
 
-def _period(at: int) -> Callable[[Context], int]:
+def _period(at: int) -> Callable[[Call], int]:
     return lambda it: it.eeprom.log.period[at]
 
 
 _PERIOD_PARTS = ("hour", "minute", "second")
 
-_READ: dict[str, Callable[[Context], int | Iterable[int]]] = {
+_READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
     "analog_input": lambda it: words(it.state, it.signals),
     "range_status": lambda it: faults(it.state, it.signals, it.eeprom.model.channels),
     "temperature": lambda it: temperatures(it.state, it.signals),
@@ -218,27 +198,27 @@ _READ: dict[str, Callable[[Context], int | Iterable[int]]] = {
 # --- writing ----------------------------------------------------------------------------------------------------------
 
 
-def write(context: Context, area: Area, start: int, items: Sequence[int]) -> State:
+def write(call: Call, area: Area, start: int, items: Sequence[int]) -> State:
     """Write coils or registers.
 
     Special: one register of a number of two keeps the other as it is.
     Errors: `RequestError`, see `_spans`; 03 for what a row cannot hold (E94).
     """
-    state, signals, now = context.state, context.signals, context.now
-    asked, eeprom = range(start, start + len(items)), context.eeprom
+    state, now = call.state, call.now
+    asked, eeprom = range(start, start + len(items)), call.eeprom
     values: dict[str, tuple[Any, ...]] = {}
     clock: dict[str, int] = {}
     done = 0
     for row, at in _spans(eeprom.model, eeprom.firmware.text, area, asked, Access.READ):
         new = items[done : done + row.count - at]
         done += len(new)
-        of_row = _values(row, at, new, context)
+        of_row = _values(row, at, new, call)
         if row.name in _CLOCK_PARTS:
             clock[_CLOCK_PARTS[row.name]] = of_row[0]
         else:
             values[row.name] = of_row
     for name, of_row in values.items():
-        state = _WRITE[name](Context(state, signals, now, of_row))
+        state = _WRITE[name](Call(state, call.message, call.signals, now, of_row))
     return state.store(log=state.eeprom.log.set_clock(clock, now)) if clock else state
 
 
@@ -246,19 +226,19 @@ _CLOCK_PARTS = {f"rtc_{part}": part for part in DATE_PARTS}
 """Parts of one date, which together must be a day that there is."""
 
 
-def _values(row: Register, at: int, new: Sequence[int], context: Context) -> tuple[Any, ...]:
+def _values(row: Register, at: int, new: Sequence[int], call: Call) -> tuple[Any, ...]:
     """Tell the values of all items of a row after a write from its item `at` on, if it can hold them."""
     words: list[int] = list(new)
     if len(new) != row.count:
-        words = list(_words_of(row, context))
+        words = list(_words_of(row, call))
         words[at : at + len(new)] = new
-    profile, big_endian = context.state.profile, context.eeprom.big_endian
+    profile, big_endian = call.state.profile, call.eeprom.big_endian
     try:
         values = values_of(row, tuple(words), 0, row.count // row.kind.width, profile, big_endian=big_endian)
         for value in values:
             counts_of(row, value, profile, big_endian=big_endian)
         if row.name == "line_settings":
-            SetCommunicationSettings(context.eeprom.address, values[0], context.eeprom.protocol).check(profile)
+            SetCommunicationSettings(call.eeprom.address, values[0], call.eeprom.protocol).check(profile)
     except (DecodeError, EncodeError):
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
     return values
@@ -268,48 +248,48 @@ def _counts(row_scale: int, values: Iterable[float]) -> tuple[int, ...]:
     return tuple([round(value * row_scale) for value in values])
 
 
-def _set_cjc_offsets(context: Context) -> State:
-    if context.eeprom.model.series == "7019":
-        return context.state.store(channel_cjc_offsets=_counts(100, context.values))
-    return context.state.store(channel_offsets=_counts(10, context.values))
+def _set_cjc_offsets(call: Call) -> State:
+    if call.eeprom.model.series == "7019":
+        return call.state.store(channel_cjc_offsets=_counts(100, call.values))
+    return call.state.store(channel_offsets=_counts(10, call.values))
 
 
-def _set_mask(context: Context, mask: int, among: int) -> State:
+def _set_mask(call: Call, mask: int, among: int) -> State:
     """Switch channels; those that the connecting mode does not have cannot be switched on (2.13)."""
-    channels = (1 << context.state.profile.channels) - 1
+    channels = (1 << call.state.profile.channels) - 1
     if mask & ~channels:
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
-    return enable_channels(context.state, mask, among & channels)
+    return enable_channels(call.state, mask, among & channels)
 
 
-def _set_type_codes(context: Context) -> State:
-    return context.state.store(type_codes=context.values)
+def _set_type_codes(call: Call) -> State:
+    return call.state.store(type_codes=call.values)
 
 
-def _report(context: Context, **changes: Any) -> State:  # noqa: ANN401 - fields of `ReportSettings`
-    return context.state.store(report_settings=evolve(context.eeprom.report_settings, **changes))
+def _report(call: Call, **changes: Any) -> State:  # noqa: ANN401 - fields of `ReportSettings`
+    return call.state.store(report_settings=evolve(call.eeprom.report_settings, **changes))
 
 
-def _log(context: Context, **changes: Any) -> State:  # noqa: ANN401 - fields of `Log`
-    return context.state.store(log=evolve(context.eeprom.log, **changes).planned(context.now))
+def _log(call: Call, **changes: Any) -> State:  # noqa: ANN401 - fields of `Log`
+    return call.state.store(log=evolve(call.eeprom.log, **changes).planned(call.now))
 
 
-def _set_log_date(name: str, part: str) -> Callable[[Context], State]:
-    def write_part(context: Context) -> State:
-        return _log(context, **{name: changed(getattr(context.eeprom.log, name), {part: context.value})})
-
-    return write_part
-
-
-def _set_period(at: int) -> Callable[[Context], State]:
-    def write_part(context: Context) -> State:
-        period = context.eeprom.log.period
-        return _log(context, period=(*period[:at], context.value, *period[at + 1 :]))
+def _set_log_date(name: str, part: str) -> Callable[[Call], State]:
+    def write_part(call: Call) -> State:
+        return _log(call, **{name: changed(getattr(call.eeprom.log, name), {part: call.value})})
 
     return write_part
 
 
-_WRITE: dict[str, Callable[[Context], State]] = {
+def _set_period(at: int) -> Callable[[Call], State]:
+    def write_part(call: Call) -> State:
+        period = call.eeprom.log.period
+        return _log(call, period=(*period[:at], call.value, *period[at + 1 :]))
+
+    return write_part
+
+
+_WRITE: dict[str, Callable[[Call], State]] = {
     "type_code": _set_type_codes,
     "temperature_offset": lambda it: it.state.store(channel_offsets=_counts(10, it.values)),
     "cjc_offset": _set_cjc_offsets,
