@@ -65,6 +65,13 @@ def _pairs(source: Callable[[State], st.SearchStrategy[Any]]) -> st.SearchStrate
     return device.states(now=NOW).flatmap(lambda state: st.tuples(st.just(state), source(state)))
 
 
+def talked_to(state: State, dialogue: list[bytes], on: Signals) -> State:
+    """Let a module hear frames, a second apart."""
+    for at, frame in enumerate(dialogue):
+        state, _ = step(state, frame, on, NOW + at)
+    return state
+
+
 # --- properties -------------------------------------------------------------------------------------------------------
 
 
@@ -106,14 +113,9 @@ def test_every_answer_is_one_that_the_host_reads(case: tuple[State, bytes], on: 
         assert isinstance(dcon.decode_response(answer, command, state.profile), dcon.Refused | command.response)
 
 
-@given(
-    device.states(now=NOW).flatmap(lambda state: st.tuples(st.just(state), st.lists(frames(state), max_size=12))),
-    device.signals(),
-)
+@given(_pairs(lambda state: st.lists(frames(state), max_size=12)), device.signals())
 def test_after_any_dialogue_a_module_can_still_be_understood(case: tuple[State, list[bytes]], on: Signals) -> None:
-    state, dialogue = case
-    for at, frame in enumerate(dialogue):
-        state, _ = step(state, frame, on, NOW + at)
+    state = talked_to(*case, on)
     again = power_on(state.eeprom, init_switch=True, now=NOW)
 
     _, answer = step(again, b"$002\r", on, NOW)
@@ -127,14 +129,9 @@ def test_after_any_dialogue_a_module_can_still_be_understood(case: tuple[State, 
 
 
 @FREQUENT
-@given(
-    device.states(now=NOW).flatmap(lambda state: st.tuples(st.just(state), st.lists(frames(state), max_size=12))),
-    device.signals(),
-)
+@given(_pairs(lambda state: st.lists(frames(state), max_size=12)), device.signals())
 def test_a_state_that_was_reached_is_as_one_that_is_made(case: tuple[State, list[bytes]], on: Signals) -> None:
-    state, dialogue = case
-    for at, frame in enumerate(dialogue):
-        state, _ = step(state, frame, on, NOW + at)
+    state = talked_to(*case, on)
 
     made = State(Eeprom(**asdict(state.eeprom, recurse=False)), Ram(**asdict(state.ram, recurse=False)))
 

@@ -10,6 +10,7 @@ from attrs import fields, frozen
 from i7000 import LineSettings, Model, Profile
 from i7000.errors import EncodeError
 from i7000.modbus import (
+    REQUESTS,
     ReadCoils,
     ReadDiscreteInputs,
     ReadHoldingRegisters,
@@ -23,16 +24,7 @@ from i7000.modbus import (
 
 PROFILE = Profile(Model.M_7017)
 """Of 8 channels: a mask has one byte."""
-STANDARD: tuple[type[Request[Any]], ...] = (
-    ReadCoils,
-    ReadDiscreteInputs,
-    ReadHoldingRegisters,
-    ReadInputRegisters,
-    WriteSingleCoil,
-    WriteSingleRegister,
-    WriteMultipleCoils,
-    WriteMultipleRegisters,
-)
+STANDARD = tuple(kind for kind in REQUESTS if kind.sub_function is None)
 
 
 @frozen
