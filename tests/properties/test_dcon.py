@@ -1,9 +1,8 @@
 """What holds for every DCON message, frame and stream."""
 
 import re
-from collections.abc import Callable
 from itertools import combinations
-from typing import Any, TypeVar
+from typing import Any
 
 import pytest
 from attrs import evolve, fields
@@ -27,8 +26,7 @@ from i7000.strategies.dcon import (
     profiles_with,
     streams,
 )
-
-T = TypeVar("T")
+from tests.properties.outcomes import decoded, encoded
 
 FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every class."""
@@ -59,28 +57,6 @@ def decode(wire: bytes, exchange: Exchange) -> dcon.Message:
     if wire[:1] in (b"!", b">", b"?"):
         return dcon.decode_response(wire, exchange.command, exchange.profile)
     return dcon.decode_command(wire, exchange.profile)
-
-
-def decoded(read: Callable[..., T], *arguments: Any) -> T | DecodeError:
-    """What a decoder returns or, with facts that fit the bytes, raises."""
-    try:
-        return read(*arguments)
-    except DecodeError as error:
-        found = error
-
-    wire = arguments[0]
-    assert wire == found.wire
-    assert 0 <= found.offset <= len(wire)
-    assert str(found).startswith(f"{found.fault.value} ")
-    return found
-
-
-def encoded(write: Callable[..., T], *arguments: Any, **fields: Any) -> T | EncodeError:
-    """What an encoder or a constructor returns or raises."""
-    try:
-        return write(*arguments, **fields)
-    except EncodeError as error:
-        return error
 
 
 # --- round trips ------------------------------------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 """What holds for every Modbus message."""
 
-from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 import pytest
 from attrs import evolve, fields
@@ -23,8 +22,7 @@ from i7000.strategies.modbus import (
     requests,
     responses,
 )
-
-T = TypeVar("T")
+from tests.properties.outcomes import decoded, encoded
 
 FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every class."""
@@ -65,28 +63,6 @@ def cases() -> st.SearchStrategy[Case]:
             Case, st.just(exchange), st.sampled_from((exchange.request_wire, exchange.response_wire)).flatmap(damaged)
         )
     )
-
-
-def decoded(read: Callable[..., T], *arguments: Any) -> T | DecodeError:
-    """What a decoder returns or, with facts that fit the bytes, raises."""
-    try:
-        return read(*arguments)
-    except DecodeError as error:
-        found = error
-
-    wire = arguments[0]
-    assert wire == found.wire
-    assert 0 <= found.offset <= len(wire)
-    assert str(found).startswith(f"{found.fault.value} ")
-    return found
-
-
-def encoded(write: Callable[..., T], *arguments: Any, **fields: Any) -> T | EncodeError:
-    """What an encoder or a constructor returns or raises."""
-    try:
-        return write(*arguments, **fields)
-    except EncodeError as error:
-        return error
 
 
 # --- round trips ------------------------------------------------------------------------------------------------------
