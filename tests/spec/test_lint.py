@@ -23,7 +23,6 @@ SECTIONS = [f"2.{number}" for number in range(1, 44)]
 FORMATS = ("engineering", "percent", "hex")
 CR = b"\r"
 
-ERRATA = {row["id"]: row for row in lint.rows("errata")}
 MODELS = {row["name"]: row for row in lint.rows("models")}
 TYPES = {row["code"]: row for row in lint.rows("type_codes")}
 COMMANDS = {row["section"]: row for row in lint.rows("dcon_commands")}
@@ -62,11 +61,6 @@ def has(since: str | None, profile: Record) -> bool:
     return since is None or profile["firmware"] is None or firmware(profile["firmware"]) >= firmware(since)
 
 
-def errata_of(record: Record) -> list[str]:
-    one = record.get("erratum")
-    return [*record.get("errata", []), *([] if one is None else [one])]
-
-
 def objects(schema: Any) -> list[Record]:
     """Every part of a schema that describes an object."""
     if isinstance(schema, list):
@@ -99,13 +93,6 @@ def test_every_column_and_flag_is_explained_and_nothing_else(path: Path) -> None
     flags = set(chain.from_iterable(record.get("flags", []) for record in lint.records(data)))
 
     assert set(data["notes"]) == columns | flags
-
-
-@pytest.mark.parametrize("path", DATA_FILES)
-def test_every_erratum_that_is_cited_exists(path: Path) -> None:
-    cited = set(chain.from_iterable(map(errata_of, lint.records(lint.load(path)))))
-
-    assert cited - set(ERRATA) == set()
 
 
 @pytest.mark.parametrize("path", SCHEMA_FILES)
@@ -165,44 +152,6 @@ def test_the_linter_finds_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     status = lint.main([])
 
     assert (status, capsys.readouterr().out) == (0, "")
-
-
-# Errata
-
-
-def test_errata_are_named_once_and_stand_in_order() -> None:
-    numbers = [int(row["id"][1:]) for row in lint.rows("errata")]
-
-    assert numbers == sorted(set(numbers))
-
-
-@pytest.mark.parametrize("erratum", ERRATA)
-def test_whoever_uses_an_erratum_exists(erratum: str) -> None:
-    users = [user for user in ERRATA[erratum]["used_by"] if user != "device"]
-
-    assert [user for user in users if user not in COMMAND_NAMES and not (lint.SPEC / user).exists()] == []
-
-
-@pytest.mark.parametrize("erratum", ERRATA)
-def test_an_erratum_names_the_commands_and_tables_that_name_it(erratum: str) -> None:
-    commands = {row["name"] for row in COMMANDS.values() if erratum in row["errata"]}
-    tables = {
-        lint.name(path)
-        for path in lint.table_files()
-        if path.stem != "dcon_commands" and any(erratum in row["errata"] for row in lint.records(lint.load(path)))
-    }
-    users = ERRATA[erratum]["used_by"]
-
-    assert {user for user in users if user in COMMAND_NAMES or user.startswith("tables/")} == commands | tables
-
-
-@pytest.mark.parametrize("path", VECTOR_FILES)
-def test_an_assumed_vector_names_the_assumption(path: Path) -> None:
-    assumed = [vector for vector in lint.records(lint.load(path)) if vector["source"] == "assumed"]
-
-    assert [
-        vector["id"] for vector in assumed if vector["erratum"] is None or not ERRATA[vector["erratum"]]["assumption"]
-    ] == []
 
 
 # Tables

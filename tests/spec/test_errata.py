@@ -1,0 +1,134 @@
+"""What ``errata.json`` promises: who names an erratum is named by it, and the other way round."""
+
+from __future__ import annotations
+
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.spec import lint
+from tests.spec.cells import Cell, row_id, wrong
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from tests.spec.lint import Record
+
+ERRATA = {row["id"]: row for row in lint.rows("errata")}
+COMMANDS = {row["name"]: row for row in lint.rows("dcon_commands")}
+MAPS = {lint.name(path): lint.load(path) for path in lint.table_files("modbus_registers")}
+ALL_MAPS = "3.4"
+SUPPORTED_IN_PART = {
+    "E16": "the response to a valid command",
+    "E26": "that the command is of the 7019 series",
+    "E34": "the models that 2.5 and 2.6 list",
+    "E63": "the reserved byte of 2D",
+}
+"""Assumptions of which the manual states a part, so that a vector which rests on that part is derived."""
+
+
+def number(erratum: str) -> int:
+    return int(erratum[1:])
+
+
+def errata_of(record: Record) -> list[str]:
+    one = record.get("erratum")
+    return [*record.get("errata", []), *([] if one is None else [one])]
+
+
+def test_errata_are_named_once_and_stand_in_order() -> None:
+    numbers = [number(erratum["id"]) for erratum in lint.rows("errata")]
+
+    assert numbers == sorted(set(numbers))
+
+
+@pytest.mark.parametrize("path", lint.data_files(), ids=lint.name)
+def test_every_erratum_that_is_cited_exists_and_is_cited_once_in_order(path: Path) -> None:
+    cells = []
+    for record in lint.records(lint.load(path)):
+        cited = errata_of(record)
+        listed = record.get("errata", [])
+        cells.append(Cell(lint.name(path), row_id(record), "errata", sorted(set(cited) - set(ERRATA)), []))
+        cells.append(Cell(lint.name(path), row_id(record), "errata", listed, sorted(set(listed), key=number)))
+
+    assert wrong(cells) == []
+
+
+@pytest.mark.parametrize("erratum", ERRATA)
+def test_whoever_uses_an_erratum_exists(erratum: str) -> None:
+    users = [user for user in ERRATA[erratum]["used_by"] if user != "device"]
+
+    assert [user for user in users if user not in COMMANDS and not (lint.SPEC / user).exists()] == []
+
+
+@pytest.mark.parametrize("erratum", ERRATA)
+def test_an_erratum_names_the_commands_and_tables_that_name_it(erratum: str) -> None:
+    commands = {row["name"] for row in COMMANDS.values() if erratum in row["errata"]}
+    tables = {
+        lint.name(path)
+        for path in lint.table_files()
+        if path.stem != "dcon_commands" and any(erratum in row["errata"] for row in lint.records(lint.load(path)))
+    }
+    users = {user for user in ERRATA[erratum]["used_by"] if user in COMMANDS or user.startswith("tables/")}
+
+    assert wrong([Cell("errata.json", erratum, "used_by", sorted(users), sorted(commands | tables))]) == []
+
+
+@pytest.mark.parametrize("table", ["dcon_commands", "module_settings"])
+def test_a_row_and_the_errata_of_its_section_name_each_other(table: str) -> None:
+    cells = []
+    for row in lint.rows(table):
+        about = [erratum for erratum in ERRATA if row["section"] in ERRATA[erratum]["sections"]]
+        cells.append(Cell(f"tables/{table}.json", row_id(row), "errata", row["errata"], about))
+
+    assert wrong(cells) == []
+
+
+@pytest.mark.parametrize("section", ["3.1", "3.2"])
+def test_a_function_with_a_section_and_the_errata_of_that_section_name_each_other(section: str) -> None:
+    [row] = [row for row in lint.rows("modbus_functions") if row["section"] == section]
+    about = [erratum for erratum in ERRATA if section in ERRATA[erratum]["sections"]]
+
+    assert wrong([Cell("tables/modbus_functions.json", row_id(row), "errata", row["errata"], about)]) == []
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_a_map_and_the_errata_of_its_section_name_each_other(name: str) -> None:
+    data = MAPS[name]
+    cited = set(chain.from_iterable(row["errata"] for row in data["rows"]))
+    own = {erratum for erratum in ERRATA if data["section"] in ERRATA[erratum]["sections"]}
+    shared = {erratum for erratum in cited if ALL_MAPS in ERRATA[erratum]["sections"]}
+
+    assert wrong([Cell(name, "of the map", "errata", sorted(cited), sorted(own | shared))]) == []
+
+
+def rows_with_sections() -> Iterator[tuple[str, Record, set[str]]]:
+    for table in ("settings", "modbus_functions", "type_codes"):
+        for row in lint.rows(table):
+            yield f"tables/{table}.json", row, set(row.get("sections", [row.get("section")]))
+
+
+def test_an_erratum_of_a_row_is_about_a_section_of_the_row() -> None:
+    cells = [
+        Cell(file, row_id(row), f"errata, sections of {erratum}", ERRATA[erratum]["sections"], sorted(sections))
+        for file, row, sections in rows_with_sections()
+        for erratum in row["errata"]
+        if not sections & set(ERRATA[erratum]["sections"])
+    ]
+
+    assert wrong(cells) == []
+
+
+@pytest.mark.parametrize("path", lint.vector_files(), ids=lint.name)
+def test_a_vector_is_assumed_where_and_only_where_its_erratum_is_an_assumption(path: Path) -> None:
+    cells = []
+    for vector in lint.records(lint.load(path)):
+        erratum = ERRATA.get(vector["erratum"], {"assumption": False})
+        if vector["source"] == "manual" or (vector["source"] == "derived" and vector["erratum"] in SUPPORTED_IN_PART):
+            continue
+        expected = "assumed" if erratum["assumption"] else "derived"
+        cells.append(Cell(lint.name(path), vector["id"], "source", vector["source"], expected))
+
+    assert wrong(cells) == []
