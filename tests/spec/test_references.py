@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 README = lint.SPEC / "README.md"
 TEXTS = [README, *lint.data_files(), *lint.schema_files()]
-OUTSIDE = re.compile(r"\bsrc/\S*|\btests?[/.][a-z]\S*|\bpytest\b|\bpython\b|\S+\.py\b|\bi7000\b|\.\./\S*", re.IGNORECASE)
+OUTSIDE = re.compile(
+    r"\bsrc/\S*|\btests?[/.][a-z]\S*|\bpytest\b|\bpython\b|\S+\.py\b|\bi7000\b|\.\./\S*", re.IGNORECASE
+)
 """The program, its tests and its tools: what a reader of ``spec/`` alone does not have."""
 INSIDE = re.compile(r"`((?:tables|vectors|stories|schema)/[\w./-]+)`")
 
