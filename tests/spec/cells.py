@@ -22,7 +22,7 @@ class Cell(NamedTuple):
 
 def row_id(row: Record) -> str:
     """The columns that name a row in its table."""
-    keys = ("id", "section", "function", "setting", "code", "format", "name", "area")
+    keys = ("id", "section", "function", "setting", "code", "format", "name", "area", "value")
     return " ".join(str(row[key]) for key in keys if row.get(key) is not None)
 
 
