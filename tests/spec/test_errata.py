@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -132,3 +133,32 @@ def test_a_vector_is_assumed_where_and_only_where_its_erratum_is_an_assumption(p
         cells.append(Cell(lint.name(path), vector["id"], "source", vector["source"], expected))
 
     assert wrong(cells) == []
+
+
+# Behaviour
+
+README = (lint.SPEC / "README.md").read_text(encoding="utf-8")
+CHAPTER = README.partition("\n## How a module behaves\n")[2].partition("\n## ")[0]
+NOT_SHOWN = {
+    "E35": "the profile of a story names the types",
+    "E83": "the profile of a story names the Modbus data format",
+    "E97": "undefined",
+    "E100": "undefined",
+    "E112": "a story has one module",
+    "E118": "undefined",
+}
+"""Assumptions about behaviour that no story can show, and why."""
+
+
+def test_the_chapter_on_behaviour_cites_the_errata_that_a_model_relies_on_and_no_other() -> None:
+    cited = set(re.findall(r"\bE\d{2,3}\b", CHAPTER))
+    relied = {erratum for erratum, row in ERRATA.items() if "device" in row["used_by"]}
+
+    assert wrong([Cell("README.md", "How a module behaves", "errata", sorted(cited), sorted(relied))]) == []
+
+
+def test_a_step_of_a_story_rests_on_each_assumption_about_behaviour() -> None:
+    shown = {step["erratum"] for story in lint.stories() for step in story["steps"] if "send" in step}
+    assumed = {erratum for erratum, row in ERRATA.items() if "device" in row["used_by"] and row["assumption"]}
+
+    assert sorted(assumed - shown) == sorted(NOT_SHOWN)

@@ -128,7 +128,7 @@ def _set_configuration(call: Call) -> State:
     """Set the configuration: all at once but line and checksum, which take permission.
 
     Special: the INIT switch allows them for the next power-on, a soft INIT at once; with both, as the switch.
-    Manual: 2.1; E17, E20, E81, E101, E107.
+    Manual: 2.1; E16, E17, E20, E81, E101, E107, E138.
     """
     state, command, ram = call.state, call.message, call.state.ram
     line, report = command.line_settings, command.report_settings

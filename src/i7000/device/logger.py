@@ -47,7 +47,7 @@ class Log:
 
     Shape: records are counted from 1 on, so that a last index of 0 says that there is none (E105).
     Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
-    Manual: 3.4.3; E73, E74, E105, E109, E110, E111.
+    Manual: 3.4.3; E73, E74, E105, E109, E110, E111, E131, E135.
     """
 
     clock_offset: float = 946_684_800.0

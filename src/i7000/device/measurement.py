@@ -44,7 +44,7 @@ def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
     Special: a disabled channel is `Status.DISABLED`; beyond the span of the type is over or under range, for voltages
         and currents too (E50, assumption); an open thermocouple wire is over range where it is looked for (E69,
         assumption), and else reads as a short circuit does (E116, assumption).
-    Manual: 1.3, 1.11; E42, E50, E69, E96, E116, E118, E119.
+    Manual: 1.3, 1.11; E42, E50, E69, E96, E116, E118, E119, E133.
     """
     return _readings(state.inputs, _junction(state, signals), signals)
 
@@ -94,7 +94,7 @@ def _hot(eeprom: Eeprom, signals: Signals, signal: Signal | None) -> float:
 
 
 def _compensation(eeprom: Eeprom, junction: float, channel: int) -> float:
-    """Tell what is added to the difference of hot and cold: the cold junction as it is known, and offsets (E62)."""
+    """Tell what is added to hot less cold: the cold junction as it is known, and offsets (E62, E134)."""
     own = eeprom.channel_offsets[channel] / 10
     if eeprom.model not in _7019_SERIES:
         return junction + eeprom.cjc_offset / 100 + own if eeprom.cjc_enabled else 0.0
@@ -224,7 +224,7 @@ _Written = TypeVar("_Written", str, int)
 def _clamped(
     write: Callable[[Reading, TypeCode], _Written], told: tuple[Reading, ...], types: tuple[TypeCode, ...]
 ) -> tuple[_Written, ...]:
-    """Write readings, the nearest end of the span for a range error that has no word: hex, voltages, currents (E46)."""
+    """Write readings, the nearest end of the span for a range error that has no word (E46, E137)."""
     written = []
     for reading, type_code in zip(told, types, strict=True):
         try:

@@ -57,7 +57,7 @@ def advance(state: State, signals: Signals, now: float) -> State:
 
     Special: what the logger missed since it was last called, it records with the `signals` of now.
     Errors: `EncodeError` for a time that is not finite.
-    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (a time-out of 0 never comes), E106, E114.
+    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (one of 0 never comes), E106, E114, E138.
     """
     if not is_number(now):
         raise EncodeError("now", now, "a finite number of seconds", "2")

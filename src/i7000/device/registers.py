@@ -202,7 +202,7 @@ def write(call: Call, area: Area, start: int, items: Sequence[int]) -> State:
     """Write coils or registers.
 
     Special: one register of a number of two keeps the other as it is.
-    Errors: `RequestError`, see `_spans`; 03 for what a row cannot hold (E94).
+    Errors: `RequestError`, see `_spans`; 03 for what a row cannot hold (E94, E136).
     """
     state, now = call.state, call.now
     asked, eeprom = range(start, start + len(items)), call.eeprom

@@ -173,7 +173,7 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
 
     Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
         has type 0E, the first that it can have (E35, assumption).
-    Manual: 1.9; E35, E83, E95, E113.
+    Manual: 1.9; E35, E83, E95, E113, E132.
 
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
     ('7018', 'MODBUS_RTU', 32)
