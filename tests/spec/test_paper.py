@@ -111,6 +111,24 @@ def test_the_vectors_of_a_section_have_its_printed_examples(section: str) -> Non
     assert wrong([Cell(lint.name(path), "of source manual", "command_text", found, expected)]) == []
 
 
+PAUSES = {
+    "2.2": (0.002, "before the next command", None, None),
+    "2.8": (16, "until done", None, "B2.6"),
+    "2.9": (16, "until done", None, "B2.6"),
+    "2.28": (3, "until done", "B2.7", None),
+    "2.35": (0.002, "before the next command", None, None),
+}
+"""How long to wait after a command, as its section says it."""
+
+
+@pytest.mark.parametrize("section", COMMANDS)
+def test_a_pause_is_the_one_that_the_section_prints(section: str) -> None:
+    pause = COMMANDS[section]["pause"]
+    found = None if pause is None else tuple(pause.values())
+
+    assert wrong([Cell(FILE, section, "pause", found, PAUSES.get(section))]) == []
+
+
 # Sources
 
 

@@ -62,7 +62,7 @@ SPELT: dict[str, Callable[[int], Any]] = {
     "calibration": truth,
     "open_wire_detection": truth,
     "connecting_mode": lambda code: ("differential", "single_ended")[code],
-    "protocols_supported": lambda code: " and ".join(("dcon", "modbus")[: code + 1]),
+    "protocols_supported": lambda code: ("dcon", "dcon and modbus")[code],
     "protocol": lambda code: {Protocol.DCON: "dcon", Protocol.MODBUS_RTU: "modbus"}[Protocol(code)],
     "host_watchdog": truth,
     "host_watchdog_status": lambda code: next(
