@@ -105,6 +105,40 @@ def test_a_map_and_the_errata_of_its_section_name_each_other(name: str) -> None:
     assert wrong([Cell(name, "of the map", "errata", sorted(cited), sorted(own | shared))]) == []
 
 
+NOT_OF_THE_MODEL = {("3.4.7", "module_type_code", "E81")}
+"""The M-7018-16 uses TT, and its channels cannot differ in type."""
+
+
+def map_rows() -> Iterator[tuple[str, str, Record]]:
+    return ((name, data["section"], row) for name, data in MAPS.items() for row in data["rows"])
+
+
+def test_a_row_names_in_every_map_the_errata_that_are_about_all_maps() -> None:
+    shared: dict[str, set[str]] = {}
+    for _, _, row in map_rows():
+        about = {erratum for erratum in row["errata"] if ALL_MAPS in ERRATA[erratum]["sections"]}
+        shared.setdefault(row["name"], set()).update(about)
+    cells = []
+    for file, section, row in map_rows():
+        there = {erratum for erratum in row["errata"] if ALL_MAPS in ERRATA[erratum]["sections"]}
+        left_out = {it for it in shared[row["name"]] if (section, row["name"], it) in NOT_OF_THE_MODEL}
+        cells.append(Cell(file, row_id(row), "errata", sorted(there), sorted(shared[row["name"]] - left_out)))
+
+    assert wrong(cells) == []
+
+
+def test_what_has_two_numbers_names_the_same_errata_at_both() -> None:
+    """But for what function 04 alone is about."""
+    cells = []
+    for file, section, row in map_rows():
+        for _, other_section, other in map_rows():
+            if other_section == section and other["name"] == row["name"]:
+                there, expected = set(row["errata"]) - {"E59"}, set(other["errata"]) - {"E59"}
+                cells.append(Cell(file, row_id(row), "errata", sorted(there), sorted(expected)))
+
+    assert wrong(cells) == []
+
+
 def rows_with_sections() -> Iterator[tuple[str, Record, set[str]]]:
     for table in ("settings", "modbus_functions", "type_codes"):
         for row in lint.rows(table):
