@@ -264,4 +264,11 @@ def test_function_46h_is_for_the_models_of_its_sub_functions() -> None:
         expected |= setting["models"]
     expected = {profile.model.value: expected[profile.model.value] for profile in M_PROFILES}
 
-    assert wrong([Cell("tables/modbus_functions.json", "46", "models", row["models"], expected)]) == []
+    broadcast = any(request.broadcast for request in modbus.REQUESTS if request.sub_function is not None)
+    file = "tables/modbus_functions.json"
+    cells = [
+        Cell(file, "46", "models", row["models"], expected),
+        Cell(file, "46", "broadcast", row["broadcast"], broadcast),
+    ]
+
+    assert wrong(cells) == []
