@@ -72,7 +72,8 @@ class Simulator:
         self.report = report
         self.notices: Counter[str] = Counter()
         """What else there is to be known, and how often it happened."""
-        self._ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self.loop = asyncio.get_running_loop()
+        self._ended: asyncio.Future[None] = self.loop.create_future()
         self._epoch = time() - monotonic()
         self._began = self.now
         self._simulated = tuple(modules)

@@ -177,7 +177,7 @@ def _bound(addresses: list[_Address], attempts: int = _ATTEMPTS) -> list[socket.
                 if sockets and not wanted and attempts > 1:
                     return _bound(addresses, attempts - 1)
                 reason = os.strerror(error.errno or 0)
-                raise OSError(error.errno, f"cannot listen at {_place(address)}: {reason}") from None
+                raise OSError(f"cannot listen at {_place(address)}: {reason}") from None
             sockets[-1].setblocking(False)
             port = sockets[-1].getsockname()[1]
         opened.pop_all()
