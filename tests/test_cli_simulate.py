@@ -1,5 +1,6 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
+import io
 import os
 import re
 import signal
@@ -8,9 +9,10 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from queue import Queue
-from threading import Thread
+from threading import Event, Thread
 from time import monotonic, sleep
 from typing import Any
 
@@ -18,6 +20,7 @@ import pytest
 import serial
 
 from i7000 import Model
+from i7000.cli.outlet import Outlet
 from i7000.cli.simulate import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
@@ -159,13 +162,35 @@ def test_a_place_beyond_this_machine_is_told(run: Run) -> None:
     assert told.err == f"i7000: {told.out.strip().removeprefix('socket://')} can be reached from other machines\n"
 
 
+def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    port = free_port()
+    going_on = Event()
+
+    class Unread(io.StringIO):
+        def write(self, text: str) -> int:
+            assert going_on.wait(20)
+            return super().write(text)
+
+    monkeypatch.setattr("sys.stdout", Unread())
+    monkeypatch.setattr("i7000.cli.simulate.Outlet", partial(Outlet, most=0))
+
+    told = simulated(
+        run, "--model", KELVIN, "--tcp", str(port), "--view", "lines",
+        meanwhile=lambda: talk(f"socket://127.0.0.1:{port}", *[b"#01\r"] * 5),
+    )  # fmt: skip
+    going_on.set()
+
+    assert (told.code, told.err) == (0, "i7000: 11 lines not shown\n")
+
+
 def test_a_frame_of_the_other_protocol_is_explained(run: Run) -> None:
     port = free_port()
 
     def ask() -> None:
         with socket.create_connection(("127.0.0.1", port), timeout=5) as host:
             host.sendall(b"$01M\r")
-            sleep(0.2)
+            host.shutdown(socket.SHUT_WR)
+            assert host.recv(100) == b""
 
     told = simulated(run, "--model", "M-7017", "--tcp", str(port), "--view", "lines", meanwhile=ask)
 

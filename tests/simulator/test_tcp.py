@@ -7,6 +7,7 @@ import socket
 import struct
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from time import sleep
 from typing import Any
 
 import pytest
@@ -248,6 +249,24 @@ def test_a_host_that_goes_leaves_room_for_another() -> None:
             until(lambda: here.call(lambda: len(asyncio.all_tasks()) < MOST_CONNECTIONS))
 
             assert answer == b"!017018\r"
+
+
+def test_a_host_that_sends_nothing_more_makes_room_for_another() -> None:
+    faults = Faults(late=1.0, late_by=60)
+    with running(listen, I_7018, faults=faults) as here, ExitStack() as stack:
+        for _ in range(MOST_CONNECTIONS):
+            opened = stack.enter_context(connected(here))
+            opened.sendall(b"$01M\r")
+            opened.shutdown(socket.SHUT_WR)
+        until(lambda: len(here.observed) == MOST_CONNECTIONS)
+        sleep(0.1)
+        here.call(lambda: setattr(here.simulator, "faults", Faults()))
+
+        with connected(here) as another:
+            another.sendall(b"$01M\r")
+
+            assert another.recv(100) == b"!017018\r"
+        assert not here.simulator.notices
 
 
 def test_connections_that_cannot_be_accepted_wait_and_are_reported_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -316,8 +316,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
 
     Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
     `--tcp` and `--rfc2217` serve 64 hosts each at a time. A host that does not read loses answers, and so does one for
-    which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that is not read is dropped, and counted:
-    `n lines not shown`.
+    which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that nobody reads is dropped, and
+    counted: `n lines not shown`.
 
     Exit code: 0; 2 for wrong usage, or a file that is damaged.
     """

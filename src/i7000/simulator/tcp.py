@@ -40,6 +40,8 @@ class Connection(asyncio.BufferedProtocol):
         self.simulator = simulator
         self.name = name
         self.connections = connections
+        self.ended = False
+        """Whether the host sends nothing more."""
         self._received = bytearray(_AT_ONCE)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -62,6 +64,7 @@ class Connection(asyncio.BufferedProtocol):
 
     def eof_received(self) -> bool:
         """Close the connection once a host that sends nothing more has all its answers."""
+        self.ended = True
         self.host.finish(self.transport.close)
         return True
 
@@ -72,6 +75,7 @@ class Connection(asyncio.BufferedProtocol):
 
     def close(self) -> None:
         """Hang up."""
+        self.connections.discard(self)
         self.transport.abort()
 
     def write(self, data: bytes) -> None:
@@ -111,8 +115,8 @@ async def listen(
             for task in accepting:
                 task.cancel()
             await asyncio.wait(accepting)
-            for one in connections:
-                one.close()
+            for made in tuple(connections):
+                made.close()
 
 
 async def _accept(
@@ -130,6 +134,9 @@ async def _accept(
             simulator.notice(f"connections are not accepted for {_PAUSE:g} s: {error.strerror}")
             await asyncio.sleep(_PAUSE)
             continue
+        ended = next((one for one in connections if one.ended), None)
+        if ended and len(connections) == MOST_CONNECTIONS:
+            ended.close()  # Its host may be gone altogether, with late answers on their way.
         if len(connections) < MOST_CONNECTIONS:
             make = partial(connection, simulator, _place(address), connections)
             await loop.connect_accepted_socket(make, accepted)
