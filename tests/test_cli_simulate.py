@@ -1,6 +1,6 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
-import asyncio
+import io
 import os
 import re
 import signal
@@ -9,8 +9,10 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from threading import Thread
+from queue import Queue
+from threading import Event, Thread
 from time import monotonic, sleep
 from typing import Any
 
@@ -18,10 +20,13 @@ import pytest
 import serial
 
 from i7000 import Model
+from i7000.cli.outlet import Outlet
 from i7000.cli.simulate import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
 from i7000.simulator.memory import load, save
+from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, Simulator
+from i7000.simulator.tcp import MOST_CONNECTIONS
 from tests.terminal import Run, Told
 
 KELVIN = "M-7019R@B3.7,type=K,protocol=dcon"
@@ -53,24 +58,33 @@ def talk(url: str, *frames: bytes) -> list[bytes]:
         return answers
 
 
-def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object]) -> Told:
-    """Call the command, and end it by Ctrl-C when something has been done meanwhile."""
+def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object] = lambda: None) -> Told:
+    """Call the command, and end the simulation when it has begun and something has been done meanwhile."""
+    begun: Queue[Simulator] = Queue()
+
+    class Begun(Simulator):
+        async def run(self) -> None:
+            begun.put(self)
+            await super().run()
 
     def do() -> None:
+        simulator = begun.get(timeout=10)
         try:
             meanwhile()
         finally:
-            os.kill(os.getpid(), signal.SIGINT)
+            simulator.loop.call_soon_threadsafe(simulator.end)
 
     doing = Thread(target=do)
     doing.start()
     try:
-        return run("simulate", *arguments)
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr("i7000.cli.simulate.Simulator", Begun)
+            return run("simulate", *arguments)
     finally:
         doing.join()
 
 
-def test_modules_are_there_until_ctrl_c(run: Run) -> None:
+def test_modules_are_there_until_the_end(run: Run) -> None:
     port = free_port()
     answers = []
 
@@ -86,7 +100,7 @@ def test_modules_are_there_until_ctrl_c(run: Run) -> None:
 def test_modules_that_would_answer_at_once_are_told(run: Run) -> None:
     def told(*texts: str) -> str:
         models = [word for text in texts for word in ("--model", text)]
-        return simulated(run, *models, "--tcp", "0", meanwhile=lambda: sleep(0.3)).err
+        return simulated(run, *models, "--tcp", "0").err
 
     assert told("I-7018", "I-7018,address=01") == (
         "i7000: several modules have address 01 and speak DCON: their answers collide\n"
@@ -141,6 +155,55 @@ def test_on_a_terminal_there_is_a_live_view_that_leaves_it_as_it_was(run: Run, m
     assert told.out.index("\x1b[?25l") < told.out.rindex("\x1b[?25h")
 
 
+def test_a_place_beyond_this_machine_is_told(run: Run) -> None:
+    told = simulated(run, "--model", KELVIN, "--tcp", "*:0", "--view", "none")
+
+    assert re.fullmatch(r"socket://0\.0\.0\.0:\d+\n", told.out)
+    assert told.err == f"i7000: {told.out.strip().removeprefix('socket://')} can be reached from other machines\n"
+
+
+def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    port = free_port()
+    going_on = Event()
+
+    class Unread(io.StringIO):
+        def write(self, text: str) -> int:
+            assert going_on.wait(20)
+            return super().write(text)
+
+    monkeypatch.setattr("sys.stdout", Unread())
+    monkeypatch.setattr("i7000.cli.simulate.Outlet", partial(Outlet, most=0))
+
+    told = simulated(
+        run, "--model", KELVIN, "--tcp", str(port), "--view", "lines",
+        meanwhile=lambda: talk(f"socket://127.0.0.1:{port}", *[b"#01\r"] * 5),
+    )  # fmt: skip
+    going_on.set()
+
+    assert (told.code, told.err) == (0, "i7000: 11 lines not shown\n")
+
+
+def test_a_frame_of_the_other_protocol_is_explained(run: Run) -> None:
+    port = free_port()
+
+    def ask() -> None:
+        with socket.create_connection(("127.0.0.1", port), timeout=5) as host:
+            host.sendall(b"$01M\r")
+            host.shutdown(socket.SHUT_WR)
+            assert host.recv(100) == b""
+
+    told = simulated(run, "--model", "M-7017", "--tcp", str(port), "--view", "lines", meanwhile=ask)
+
+    assert told.out.endswith("$01M  a DCON frame; the M-7017 speaks Modbus RTU: give --model M-7017,protocol=dcon\n")
+
+
+def test_the_limits_that_the_help_names_are_those_of_the_simulator(run: Run) -> None:
+    words = " ".join(run("simulate", "--help").out.replace("│", " ").split())
+
+    assert f"serve {MOST_CONNECTIONS} hosts each at a time" in words
+    assert f"{MOST_LATE_PIECES} pieces, or {MOST_LATE_BYTES} bytes, of late answers" in words
+
+
 def test_faults_are_those_of_the_seed(run: Run) -> None:
     def answers(*seed: str) -> list[bytes]:
         port = free_port()
@@ -175,7 +238,7 @@ def test_a_file_keeps_what_modules_remember(run: Run, tmp_path: Path) -> None:
 def test_a_file_is_made_before_anything_is_said(run: Run, tmp_path: Path) -> None:
     memory = tmp_path / "modules.json"
 
-    simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0", meanwhile=lambda: sleep(0.3))
+    simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0")
 
     assert [eeprom.model for eeprom in load(memory)] == [Model.M_7019R]
 
@@ -260,7 +323,7 @@ def test_a_place_that_is_taken_is_told(run: Run) -> None:
         told = run("simulate", "--model", KELVIN, "--tcp", str(server.getsockname()[1]))
 
     assert (told.code, told.out) == (2, "")
-    assert "in use" in told.err
+    assert re.fullmatch(r"i7000: cannot listen at 127\.0\.0\.1:\d+: Address already in use\n", told.err)
 
 
 @pytest.mark.parametrize(
@@ -316,9 +379,16 @@ def test_a_system_without_pseudo_terminals_is_told_what_else_there_is(
 # --- as a process -----------------------------------------------------------------------------------------------------
 
 
+MAIN = "import sys; from i7000.cli import main; sys.exit(main())"
+WITHOUT_SIGNALS = (
+    "import asyncio; "
+    "asyncio.SelectorEventLoop.add_signal_handler = lambda *_: (_ for _ in ()).throw(NotImplementedError)"
+)
+
+
 @contextmanager
-def process(*arguments: str) -> Iterator["subprocess.Popen[str]"]:
-    command = [sys.executable, "-c", "import sys; from i7000.cli import main; sys.exit(main())", "simulate"]
+def process(*arguments: str, main: str = MAIN) -> Iterator["subprocess.Popen[str]"]:
+    command = [sys.executable, "-c", main, "simulate"]
     with subprocess.Popen(  # noqa: S603 - ourselves
         [*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as started:
@@ -355,12 +425,13 @@ def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals
     assert (started.returncode, rest, errors) == (0, "", "")
 
 
-def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def add_signal_handler(*_: object) -> None:
-        raise NotImplementedError
+def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too() -> None:
+    with process("--model", KELVIN, main=f"{WITHOUT_SIGNALS}; {MAIN}") as started:
+        assert started.stdout
+        path = started.stdout.readline().strip()
+        talk(path, b"#01\r")
 
-    monkeypatch.setattr(asyncio.SelectorEventLoop, "add_signal_handler", add_signal_handler)
+        started.send_signal(signal.SIGINT)
+        rest, errors = started.communicate(timeout=10)
 
-    told = simulated(run, "--model", KELVIN, "--tcp", "0", meanwhile=lambda: sleep(0.5))
-
-    assert (told.code, told.err) == (130, "")
+    assert (started.returncode, rest, errors) == (130, "", "")

@@ -79,6 +79,38 @@ def test_what_is_for_no_module_is_told_as_such() -> None:
     assert told(b"$99M\r", profile=None) == ["    12.345  127.0.0.1:51234  $99M  for no module here"]
 
 
+@pytest.mark.parametrize(
+    ("frame", "protocol", "deaf", "words"),
+    [
+        (
+            b"$01M\r",
+            DCON,
+            M_7019R,
+            "$01M  a DCON frame; the M-7019R speaks Modbus RTU: give --model M-7019R,protocol=dcon",
+        ),
+        (
+            rtu(modbus.ReadCoils(1, 0, 1)),
+            RTU,
+            M_7019R,
+            "00001  a Modbus RTU frame; the M-7019R speaks DCON: give --model M-7019R,protocol=rtu",
+        ),
+        (
+            rtu(modbus.ReadCoils(1, 0, 1)),
+            RTU,
+            I_7018R,
+            "00001  a Modbus RTU frame; the I-7018R speaks DCON only",
+        ),
+        (modbus.seal(b"\x01\x2b"), RTU, I_7018R, "the I-7018R speaks DCON only"),
+    ],
+)
+def test_a_frame_that_a_module_does_not_understand_is_told_with_the_reason(
+    frame: bytes, protocol: Protocol, deaf: Profile, words: str
+) -> None:
+    (line,) = lines(Observed(0.0, "pty", frame, protocol, None, None, deaf=deaf))
+
+    assert line.plain.endswith(words)
+
+
 @pytest.mark.parametrize("frame", [b"#**\r", b"#**77\r"])
 def test_a_command_to_all_modules_is_told_as_such(frame: bytes) -> None:
     (line,) = told(frame, profile=None)
@@ -238,6 +270,7 @@ ANY_HEARD = st.binary(max_size=300) | st.builds(Noise, st.binary(max_size=300), 
         profile=st.none() | strategies.profiles(),
         answer=st.none() | st.binary(max_size=300),
         faults=st.lists(st.text(), max_size=2).map(tuple),
+        deaf=st.none() | strategies.profiles(),
     )
 )
 def test_whatever_was_on_the_line_is_told_without_control_characters(any_: Observed) -> None:

@@ -1,7 +1,7 @@
 import io
 import re
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from time import monotonic, sleep
 from typing import Any
 
@@ -29,12 +29,17 @@ VOLTS = module(Model.I_7017, report_settings=ReportSettings(checksum=True), addr
 EVERY = (MIXED, VOLTS, module(Model.I_7018, host_watchdog_timed_out=True), module(Model.M_7017Z, single_ended=True))
 
 
-def drawn(
-    states: Sequence[State], seen: Sequence[Observed] = (), width: int = 140, height: int = 40, encoding: str = "utf-8"
+def drawn(  # noqa: PLR0913, PLR0917 - all but the first are options
+    states: Sequence[State],
+    seen: Sequence[Observed] = (),
+    width: int = 140,
+    height: int = 40,
+    encoding: str = "utf-8",
+    notices: Mapping[str, int] | None = None,
 ) -> list[str]:
     file = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
     console = Console(file=file, width=width, height=height, color_system=None)
-    view = View(lambda: [(state, SIGNALS) for state in states], console)
+    view = View(lambda: [(state, SIGNALS) for state in states], console, notices=notices)
     for observed in seen:
         view.show(observed)
     console.print(view)
@@ -137,6 +142,22 @@ def test_where_hosts_find_the_bus_stays_in_view() -> None:
     ]
 
 
+def test_notices_are_shown_with_how_often_they_came() -> None:
+    notices: dict[str, int] = {}
+    console = Console(file=io.StringIO(), width=60, height=40, color_system=None)
+    view = View(list, console, (), notices)
+    notices |= {"a connection was refused: 64 are open": 3, "an answer was lost: its host does not read": 1}
+    view.show(heard())
+    with console.capture() as captured:
+        console.print(view)
+
+    assert captured.get().splitlines()[-4:-1] == [
+        "on the line",
+        "a connection was refused: 64 are open (3 times)",
+        "an answer was lost: its host does not read",
+    ]
+
+
 # --- the traffic ------------------------------------------------------------------------------------------------------
 
 
@@ -178,13 +199,14 @@ def test_what_the_terminal_cannot_write_is_escaped() -> None:
 @given(
     st.lists(st.sampled_from(EVERY), max_size=12),
     st.integers(0, 40),
+    st.integers(0, 4),
     st.integers(1, 160),
     st.integers(1, 40),
 )
-def test_a_view_fits_every_terminal(states: list[State], frames: int, width: int, height: int) -> None:
+def test_a_view_fits_every_terminal(states: list[State], frames: int, notices: int, width: int, height: int) -> None:
     seen = [heard(b"$012\r", b"!010E0642\r", at=at) for at in range(frames)]
 
-    rows = drawn(states, seen, width, height)
+    rows = drawn(states, seen, width, height, notices={f"an answer was lost {at}": at for at in range(notices)})
 
     assert len(rows) <= height
     assert all(len(row) <= width for row in rows)
@@ -259,9 +281,10 @@ def test_a_terminal_that_is_stopped_holds_up_nobody() -> None:
 
     with live(Stopped()) as view:
         assert stopped.wait(5)
+        observed = heard()
         began = monotonic()
         for _ in range(1000):
-            view.show(heard())
+            view.show(observed)
         took = monotonic() - began
         going_on.set()
 

@@ -2,11 +2,13 @@
 
 import re
 import shlex
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from i7000 import Fault
+from i7000 import Fault, Protocol
+from i7000.cli.simulate import read_modules
 from tests.terminal import Run
 
 ROOT = Path(__file__).parents[1]
@@ -68,6 +70,16 @@ def test_the_examples_at_the_terminal_tell_what_they_say(run: Run, arguments: st
 
     assert words in " ".join(result.out.split())
     assert result.code == 0
+
+
+def test_the_modules_of_the_simulated_bus_speak_one_protocol() -> None:
+    (example,) = re.findall(r"^i7000 simulate (.*)$", README, re.MULTILINE)
+    arguments = shlex.split(example)
+    values = {name: [value for before, value in pairwise(arguments) if before == name] for name in arguments}
+
+    modules = read_modules(values["--model"], values["--signal"], seed=0, memory=None)
+
+    assert [module.eeprom.protocol for module in modules] == [Protocol.DCON] * 2
 
 
 @pytest.mark.parametrize("path", sorted(set(re.findall(r"`((?:spec|src|tests)/[\w./]*)`", README))))

@@ -1,21 +1,42 @@
-"""A simulator that runs beside the test, in an event loop of its own."""
+"""A simulator that runs beside the test, in an event loop of its own; and what hosts talk to it with."""
 
 import asyncio
+import socket
 from collections.abc import Callable, Iterator
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, contextmanager
+from functools import partial
 from threading import Thread
+from time import monotonic, sleep
 from typing import Any, TypeVar
 
+import serial
 from attrs import define, evolve, field
 
-from i7000 import Firmware, Model, Protocol
-from i7000.device import factory
+from i7000 import Firmware, Model, Protocol, Unit
+from i7000.device import Signal, factory
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
+from i7000.simulator.pseudo_terminal import open_pty
+from i7000.simulator.rfc2217 import Rfc2217Connection
 from i7000.simulator.simulator import Simulated, Simulator
-from i7000.simulator.sources import Sources, default_sources
+from i7000.simulator.sources import Fixed, Sources, default_sources
+from i7000.simulator.tcp import listen
 
-__all__ = ["Running", "Transport", "module", "running"]
+__all__ = [
+    "I_7018",
+    "RFC_2217",
+    "SAID",
+    "TRANSPORTS",
+    "Network",
+    "Running",
+    "Transport",
+    "ask",
+    "connected",
+    "module",
+    "port",
+    "running",
+    "until",
+]
 
 T = TypeVar("T")
 Transport = Callable[[Simulator], AbstractAsyncContextManager[str]]
@@ -85,3 +106,70 @@ def running(
         loop.call_soon_threadsafe(loop.stop)
         thread.join(_ENOUGH)
         loop.close()
+
+
+# --- a module, and hosts ----------------------------------------------------------------------------------------------
+
+I_7018 = module(
+    Model.I_7018,
+    sources=Sources(tuple(Fixed(Signal(value, Unit.VOLT)) for value in (1.5, -1.0, 0.25, 0, 0, 0, 0, 0))),
+)
+SAID = b">+1.5000-1.0000+0.2500" + b"+0.0000" * 5 + b"\r"
+RFC_2217 = partial(listen, connection=Rfc2217Connection)
+TRANSPORTS: dict[str, Transport] = {"pty": open_pty, "socket": listen, "rfc2217": RFC_2217}
+
+
+@contextmanager
+def port(here: Running, scheme: str, **settings: Any) -> Iterator[serial.Serial]:
+    """What a host opens."""
+    url = here.place if scheme == "pty" else f"{scheme}://{here.place}"
+    opened: Any = serial.serial_for_url(url, timeout=2, **settings)
+    with opened:
+        yield opened
+
+
+def connected(here: Running) -> socket.socket:
+    """A connection without a protocol."""
+    host, _, number = here.place.rpartition(":")
+    return socket.create_connection((host, int(number)), timeout=2)
+
+
+def ask(opened: serial.Serial, request: bytes, length: int) -> bytes:
+    """Send a request, and read so many bytes."""
+    opened.write(request)
+    return bytes(opened.read(length))
+
+
+def until(holds: Callable[[], object]) -> None:
+    """Wait until something holds, or fail."""
+    deadline = monotonic() + _ENOUGH
+    while not holds():
+        assert monotonic() < deadline
+        sleep(0.01)
+
+
+class Network(asyncio.Transport):
+    """A connection to a host that reads nothing."""
+
+    def __init__(self, unread: int = 0) -> None:
+        super().__init__()
+        self.unread = unread
+        self.written: list[bytes] = []
+        self.closed = False
+
+    def is_closing(self) -> bool:
+        """Whether it has been closed."""
+        return self.closed
+
+    def close(self) -> None:
+        """Close it."""
+        self.closed = True
+
+    def get_write_buffer_size(self) -> int:
+        """Tell how much waits for the host."""
+        return self.unread
+
+    def write(self, data: Any) -> None:
+        """Keep what the host does not read."""
+        self.written.append(bytes(data))
+        self.unread += len(data)

@@ -2,56 +2,24 @@
 
 import asyncio
 import errno
-import socket
-import struct
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from functools import partial
+from collections.abc import Sequence
+from contextlib import suppress
 from threading import Event, Thread
 from time import monotonic, sleep
-from typing import Any, cast
 
 import pytest
-import serial
 from attrs import evolve
 
-from i7000 import BaudRate, LineSettings, Model, Noise, Profile, Protocol, Unit, modbus
+from i7000 import Model, Noise, Profile, Protocol, Unit, modbus
 from i7000.device import Eeprom, Signal
 from i7000.simulator.faults import Faults
 from i7000.simulator.memory import MemoryFileError
 from i7000.simulator.observed import Observed
 from i7000.simulator.pseudo_terminal import open_pty
-from i7000.simulator.rfc2217 import Rfc2217Connection
-from i7000.simulator.simulator import Host, Simulator
+from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, UNREAD, Host, Simulator
 from i7000.simulator.sources import Fixed, Sources
-from i7000.simulator.tcp import Connection, listen
-from tests.simulator.running import Running, Transport, module, running
-
-VOLTS = Sources(tuple(Fixed(Signal(value, Unit.VOLT)) for value in (1.5, -1.0, 0.25, 0, 0, 0, 0, 0)))
-SAID = b">+1.5000-1.0000+0.2500" + b"+0.0000" * 5 + b"\r"
-I_7018 = module(Model.I_7018, sources=VOLTS)
-RFC_2217 = partial(listen, connection=Rfc2217Connection)
-TRANSPORTS: dict[str, Transport] = {"pty": open_pty, "socket": listen, "rfc2217": RFC_2217}
-
-
-@contextmanager
-def port(here: Running, scheme: str, **settings: Any) -> Iterator[serial.Serial]:
-    """What a host opens."""
-    url = here.place if scheme == "pty" else f"{scheme}://{here.place}"
-    opened: Any = serial.serial_for_url(url, timeout=2, **settings)
-    with opened:
-        yield opened
-
-
-def connected(here: Running) -> socket.socket:
-    host, _, number = here.place.rpartition(":")
-    return socket.create_connection((host, int(number)), timeout=2)
-
-
-def ask(opened: serial.Serial, request: bytes, length: int) -> bytes:
-    opened.write(request)
-    return bytes(opened.read(length))
-
+from i7000.simulator.tcp import listen
+from tests.simulator.running import I_7018, SAID, TRANSPORTS, ask, connected, module, port, running
 
 every_transport = pytest.mark.parametrize("scheme", TRANSPORTS)
 
@@ -202,6 +170,59 @@ def test_a_late_answer_comes_after_the_next_request() -> None:
     assert told == ("late by 0.1 s",)
 
 
+@pytest.mark.parametrize(("command", "answer"), [(b"#01\r", SAID), (b"$01M\r", b"!017018\r")])
+def test_of_late_answers_no_more_are_kept_than_there_is_room_for(command: bytes, answer: bytes) -> None:
+    observed: list[Observed] = []
+    room = min(MOST_LATE_PIECES, MOST_LATE_BYTES // len(answer))
+
+    async def converse() -> int:
+        simulator = Simulator([I_7018], faults=Faults(late=1.0, late_by=60), observe=observed.append)
+        host = Host(simulator, "host", lambda _: None)
+        host.receive(command * 2000)
+        host.close()
+        (lost,) = simulator.notices.values()
+        return lost
+
+    lost = asyncio.run(converse())
+
+    assert lost == 2000 - room
+    assert [it.faults for it in observed] == [("late by 60 s",)] * room + [
+        ("late by 60 s", "an answer was lost: too many are late")
+    ] * lost
+
+
+def test_an_answer_that_is_not_late_is_sent_however_many_are() -> None:
+    sent: list[bytes] = []
+
+    async def converse() -> None:
+        simulator = Simulator([I_7018], faults=Faults(late=1.0, late_by=60))
+        host = Host(simulator, "host", sent.append)
+        host.receive(b"#01\r" * 2000)
+        simulator.faults = Faults()
+        host.receive(b"$01M\r")
+        host.close()
+
+    asyncio.run(converse())
+
+    assert sent == [b"!017018\r"]
+
+
+def test_there_is_room_again_once_late_answers_have_come() -> None:
+    sent: list[bytes] = []
+
+    async def converse() -> None:
+        simulator = Simulator([I_7018], faults=Faults(late=1.0, late_by=0.05))
+        host = Host(simulator, "host", sent.append)
+        host.receive(b"$01M\r" * 2000)
+        await asyncio.sleep(0.3)
+        host.receive(b"#01\r")
+        await asyncio.sleep(0.3)
+
+    asyncio.run(converse())
+
+    assert (len(sent), sent[-1]) == (MOST_LATE_PIECES + 1, SAID)
+
+
 def test_the_same_seed_has_the_same_faults() -> None:
     def heard(seed: int) -> list[bytes]:
         faults = Faults(drop=0.02, flip=0.02, noise=0.2)
@@ -318,61 +339,6 @@ def test_other_signals_can_be_connected() -> None:
         assert ask(opened, b"#010\r", 9) == b">+2.0000\r"
 
 
-# --- RFC 2217: line settings ------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("settings", "hears"),
-    [
-        ({"baudrate": 19200}, True),
-        ({"baudrate": 19200, "stopbits": 2}, True),
-        ({"baudrate": 9600}, False),
-        ({"baudrate": 19200, "parity": "E"}, False),
-        ({"baudrate": 19200, "bytesize": 7}, False),
-    ],
-)
-def test_a_module_hears_a_host_with_its_line_settings_only(settings: dict[str, object], *, hears: bool) -> None:
-    spoken = module(Model.I_7018, line_settings=LineSettings(BaudRate.BAUD_19200))
-
-    with running(RFC_2217, spoken) as here, port(here, "rfc2217", **settings) as opened:
-        opened.timeout = 2 if hears else 0.1
-
-        assert ask(opened, b"$01M\r", 8) == (b"!017018\r" if hears else b"")
-
-
-def test_a_host_that_wants_what_no_port_has_keeps_what_it_had() -> None:
-    """The server answers with the setting that it has: 9600 bits per second."""
-    with running(RFC_2217, I_7018) as here, connected(here) as opened:
-        opened.sendall(
-            b"\xff\xfb\x2c\xff\xfd\x2c\xff\xfa\x2c\x02\x09\xff\xf0\xff\xfa\x2c\x01\xff\xff\xff\xff\xff\xff\xff\xff\xff\xf0"
-        )
-        heard = b""
-        while b"\x2c\x66\x08" not in heard:
-            heard += opened.recv(1000)
-
-
-@pytest.mark.parametrize(
-    "hostile",
-    [
-        b"\xff\xfa\x2c\x01\xff\xf0",
-        b"\xff\xf0",
-        b"\xff\xfa\x2c\x03\x63\xff\xf0",
-        b"\xff\xfa" + bytes(1000),
-    ],
-    ids=["short", "end without begin", "unknown parity", "without an end"],
-)
-def test_a_host_that_does_not_speak_rfc_2217_is_hung_up_on(hostile: bytes) -> None:
-    with running(RFC_2217, I_7018) as here:
-        with connected(here) as opened:
-            opened.sendall(hostile)
-            with suppress(ConnectionResetError):
-                while opened.recv(1000):
-                    pass
-
-        with port(here, "rfc2217") as host:
-            assert ask(host, b"$01M\r", 8) == b"!017018\r"
-
-
 # --- hosts that do not behave -----------------------------------------------------------------------------------------
 
 
@@ -390,27 +356,15 @@ def test_a_host_that_does_not_read_holds_up_nobody(scheme: str) -> None:
             assert ask(opened, b"$01M\r", 8) == b"!017018\r"
 
 
-@pytest.mark.parametrize(("unread", "written"), [(0, [b"!01\r"]), (1 << 16, [])])
-def test_a_host_that_has_not_read_for_long_loses_what_it_is_sent(unread: int, written: list[bytes]) -> None:
-    class Network(asyncio.Transport):
-        def __init__(self) -> None:
-            self.written: list[bytes] = []
+def test_what_a_host_at_a_pseudo_terminal_does_not_read_is_lost_and_counted() -> None:
+    with running(open_pty, I_7018) as here, port(here, "pty") as opened:
+        for _ in range(100):
+            opened.write(b"#01\r" * 20)
+            if here.simulator.notices:
+                break
+            sleep(0.02)
 
-        def is_closing(self) -> bool:
-            return False
-
-        def get_write_buffer_size(self) -> int:
-            return unread
-
-        def write(self, data: Any) -> None:
-            self.written.append(data)
-
-    connection, network = Connection(cast("Simulator", None), set()), Network()
-    connection.transport = network
-
-    connection.write(b"!01\r")
-
-    assert written == network.written
+    assert set(here.simulator.notices) == {UNREAD}
 
 
 @pytest.mark.parametrize("scheme", ["socket", "rfc2217"])
@@ -439,59 +393,6 @@ def test_a_host_that_never_ends_leaves_the_others_their_turn(scheme: str) -> Non
 
     assert answer == b"!017018\r"
     assert meanwhile < 10_000
-
-
-def test_what_is_negotiated_with_a_host_that_does_not_read_is_not_kept() -> None:
-    class Network(asyncio.Transport):
-        def __init__(self) -> None:
-            self.written = 0
-
-        def get_extra_info(self, name: str, default: Any = None) -> Any:
-            return ("127.0.0.1", 5020) if name == "peername" else default
-
-        def is_closing(self) -> bool:
-            return False
-
-        def get_write_buffer_size(self) -> int:
-            return self.written
-
-        def write(self, data: Any) -> None:
-            self.written += len(data)
-
-    async def negotiate() -> int:
-        network = Network()
-        connection = Rfc2217Connection(Simulator([I_7018]), set())
-        connection.connection_made(network)
-        connection.receive(b"\xff\xfa\x2c\x01\0\0\x25\x80\xff\xf0" * 10_000)
-        return network.written
-
-    assert asyncio.run(negotiate()) < (1 << 16) + 100
-
-
-def test_a_host_that_is_gone_is_sent_nothing(caplog: pytest.LogCaptureFixture) -> None:
-    """The network would complain of each answer."""
-    with running(listen, I_7018) as here:
-        for _ in range(5):
-            with connected(here) as opened:
-                opened.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-                opened.sendall(b"#01\r" * 2000)
-                while not here.observed:
-                    sleep(0.001)
-            here.observed.clear()
-
-        with port(here, "socket") as opened:
-            assert ask(opened, b"$01M\r", 8) == b"!017018\r"
-
-    assert caplog.records == []
-
-
-def test_a_name_that_no_host_can_have_is_no_place() -> None:
-    async def wait() -> None:
-        async with listen(Simulator([I_7018]), "a" * 70):
-            """Nobody gets here."""
-
-    with pytest.raises(OSError, match="cannot be the name of a host"):
-        asyncio.run(wait())
 
 
 @every_transport

@@ -300,7 +300,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     """Simulate modules on a line, until Ctrl-C.
 
     What is printed first is where a driver finds them: the path of a pseudo-terminal, `socket://127.0.0.1:5020`,
-    `rfc2217://127.0.0.1:5021`, as pyserial takes them. Without a host, only this machine gets there.
+    `rfc2217://127.0.0.1:5021`, as pyserial takes them. Without a host, only this machine gets there; `*` is every
+    address of this machine.
 
     * Modules: `M-7019R@B3.7`, or with settings, `M-7019R,address=02,type=K/J/T/K/K/K/K/K,protocol=dcon,checksum=true`.
       Unless given, all is as from the factory, but the n-th module has the address n. `init=true` powers it on with the
@@ -314,6 +315,9 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       `--model` may be left out.
 
     Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
+    `--tcp` and `--rfc2217` serve 64 hosts each at a time. A host that does not read loses answers, and so does one for
+    which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that nobody reads is dropped, and
+    counted: `n lines not shown`.
 
     Exit code: 0; 2 for wrong usage, or a file that is damaged.
     """

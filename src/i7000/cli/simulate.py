@@ -4,16 +4,18 @@ Laws: what some options need and others do not is imported when it is asked for.
 """
 
 import asyncio
+import logging
 import signal
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import AsyncExitStack, suppress
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import AsyncExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 from attrs import fields_dict, frozen
 
+from i7000.cli.outlet import Outlet, missed_words
 from i7000.cli.simulated import read_module, read_signals
 from i7000.cli.text import Printer
 from i7000.cli.traffic import lines
@@ -139,14 +141,35 @@ def run(simulated: Simulation, printer: Printer) -> int:
 
     Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
     """
+    with _never_held_up(printer, simulated.view) as out:
+        try:
+            return asyncio.run(_run(simulated, printer, out))
+        except I7000Error as error:
+            raise UsageError(error) from None
+
+
+@contextmanager
+def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
+    """Print so that the simulation goes on, and ends, even if nobody reads what is printed; the value is the output."""
+    files = printer.out.file, printer.err.file
+    out = Outlet(files[0], most=0, counted=False) if view == "live" else Outlet(files[0])
+    err = Outlet(files[1])
+    printer.out.file, printer.err.file = cast(IO[str], out), cast(IO[str], err)
+    complaints = logging.StreamHandler(err)
+    logging.getLogger("asyncio").addHandler(complaints)
     try:
-        return asyncio.run(_run(simulated, printer))
-    except I7000Error as error:
-        raise UsageError(error) from None
+        yield out
+    finally:
+        missed = out.close()
+        if missed and view == "lines":
+            printer.error(missed_words(missed))
+        logging.getLogger("asyncio").removeHandler(complaints)
+        err.close()
+        printer.out.file, printer.err.file = files
 
 
-async def _run(simulated: Simulation, printer: Printer) -> int:
-    simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed)
+async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
+    simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
     if simulated.memory is not None:
         from i7000.simulator.memory import save  # noqa: PLC0415
 
@@ -162,7 +185,12 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
         for place in places:
             printer.out.out(place, highlight=False)
         printer.out.file.flush()
-        simulator.observe = _observer(simulated.view, printer, simulator, places, opened)
+        if simulated.view == "lines":
+            simulator.observe = partial(_show_lines, printer, out)
+        elif simulated.view == "live":
+            simulator.report = None
+            view = View(simulator.modules, printer.out, places, simulator.notices)
+            simulator.observe = opened.enter_context(view).show
         await simulator.run()
     return 0
 
@@ -194,12 +222,7 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
     return found
 
 
-def _observer(
-    kind: str, printer: Printer, simulator: Simulator, places: Sequence[str], opened: AsyncExitStack
-) -> Callable[[Observed], None] | None:
-    """Show what goes on, in the manner that was asked for."""
-    if kind == "none":
-        return None
-    if kind == "lines":
-        return lambda observed: printer.show(lines(observed))
-    return opened.enter_context(View(simulator.modules, printer.out, places)).show
+def _show_lines(printer: Printer, out: Outlet, observed: Observed) -> None:
+    """Show what was on the line, unless nobody reads what was shown before."""
+    if not out.skip(1 if observed.answer is None else 2):
+        printer.show(lines(observed))

@@ -46,9 +46,21 @@ def lines(observed: Observed) -> Iterator[Text]:
         line = Text(" " * INDENT).append_text(answer)
     elif observed.profile is not None:
         line.append("  silence", "dim")
+    elif observed.deaf is not None:
+        line.append(f"  {_deaf_words(observed.protocol, observed.deaf)}", "yellow")
     if observed.faults:
         line.append(f"  [{escaped(', '.join(observed.faults))}]", "magenta")
     yield line
+
+
+def _deaf_words(protocol: Protocol, deaf: Profile) -> str:
+    """Explain why a module does not understand a frame, and what to do about it."""
+    model = deaf.model
+    heard, spoken, setting = (
+        ("DCON", "Modbus RTU", "dcon") if protocol is Protocol.DCON else ("Modbus RTU", "DCON", "rtu")
+    )
+    hint = f": give --model {model.value},protocol={setting}" if protocol in model.protocols else " only"
+    return f"a {heard} frame; the {model.value} speaks {spoken}{hint}"
 
 
 _STATUS = {Status.OVER_RANGE: ("OVER_RANGE", "yellow"), Status.UNDER_RANGE: ("UNDER_RANGE", "yellow")}
@@ -91,6 +103,10 @@ def _noise(text: str, noise: Noise) -> Text:
     return _not_meant(text, f"no frame: {noise.fault.value}")
 
 
+def _for_nobody(observed: Observed) -> list[Text]:
+    return [Text("for no module here")] if observed.deaf is None else []
+
+
 def _words(message: Any, explain: Callable[[str, Any], str]) -> list[Text]:  # noqa: ANN401 - of either protocol
     """Tell the fields of a message by name."""
     told = {name: getattr(message, name) for name in message_fields(type(message)) if name not in _TOLD}
@@ -112,10 +128,9 @@ def _dcon(observed: Observed) -> _Pieces:
     text = _dcon_text(heard)
     if profile is None:
         broadcast = _broadcast(heard)
-        name, reason = (
-            (type(broadcast).__name__, Text("to all modules")) if broadcast else ("", Text("for no module here"))
-        )
-        return _meant(text, name, reason), answer
+        if broadcast:
+            return _meant(text, type(broadcast).__name__, Text("to all modules")), answer
+        return _meant(text, "", *_for_nobody(observed)), answer
     try:
         command = dcon.decode_command(heard, profile)
     except DecodeError as error:
@@ -182,7 +197,7 @@ def _modbus(observed: Observed) -> _Pieces:
     if not modbus.is_answered(request):
         details.append(Text("to all modules"))
     elif profile is None:
-        details.append(Text("for no module here"))
+        details += _for_nobody(observed)
     if observed.answer is not None:
         answer = _modbus_answer(observed.answer, request, profile or _ANY)
     return _meant(text, type(request).__name__, *details), answer

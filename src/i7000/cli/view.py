@@ -1,10 +1,11 @@
 """The live view: the modules as they are now, and below them what was last on the line.
 
-Laws: `View.show` only remembers; a thread of its own draws, so that a slow or stopped terminal holds up nobody. On a
-terminal it takes the alternate screen and gives it back; on what is none it writes nothing.
+Laws: `View.show` only remembers; a thread of its own draws. Leaving the view writes to the terminal too: where that may
+be stopped, the console has an `Outlet`. On a terminal it takes the alternate screen and gives it back; on what is none
+it writes nothing.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Self
 
@@ -42,11 +43,19 @@ class View:
     """
 
     def __init__(
-        self, modules: Callable[[], _Modules], console: Console | None = None, places: Sequence[str] = ()
+        self,
+        modules: Callable[[], _Modules],
+        console: Console | None = None,
+        places: Sequence[str] = (),
+        notices: Mapping[str, int] | None = None,
     ) -> None:
-        """Make one that tells `places`, where hosts find the bus, which the alternate screen would hide."""
+        """Make one that shows what the alternate screen would hide.
+
+        Shape: `places` are where hosts find the bus, `notices` what else there is to be known, and how often.
+        """
         self._modules = modules
         self._places = places
+        self._notices = {} if notices is None else notices
         self._seen: tuple[Observed, ...] = ()
         self._live = Live(
             self,
@@ -75,11 +84,13 @@ class View:
         height = options.height or options.max_height
         options = options.update(height=None)
         traffic = self._traffic(console, options, height)
-        above = _table(self._modules(), console, options, height - min(len(traffic), height // 3) - 1)
+        notices = [_notice(text, times) for text, times in list(self._notices.items())]
+        room = height - min(len(traffic), height // 3) - 1 - len(notices)
+        above = _table(self._modules(), console, options, room)
         title = Text("on the line", "bold")
         for words in (*self._places, *(() if traffic else ("nothing yet",))):
             title.append(f"  {words}", "not bold")
-        drawn = [*above, [*_cut(title, options.max_width).render(console)]]
+        drawn = [*above, *([*_cut(text, options.max_width).render(console)] for text in (title, *notices))]
         drawn += traffic[max(0, len(traffic) - max(0, height - len(drawn))) :]
         for line in drawn[:height]:
             yield from line
@@ -95,6 +106,10 @@ class View:
             if len(drawn) >= height:
                 break
         return drawn
+
+
+def _notice(text: str, times: int) -> Text:
+    return Text().append(text if times == 1 else f"{text} ({times} times)", "yellow")
 
 
 def _folded(text: Text, console: Console, width: int) -> Iterator[Text]:

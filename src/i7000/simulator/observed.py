@@ -27,3 +27,5 @@ class Observed:
     """What the modules answered; None: silence."""
     faults: tuple[str, ...] = ()
     """What the line did to it."""
+    deaf: Profile | None = None
+    """That of a module that cannot understand it, since it speaks the other protocol."""

@@ -8,9 +8,9 @@ import os
 import pty
 import tty
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 
-from i7000.simulator.simulator import Host, Simulator
+from i7000.simulator.simulator import UNREAD, Host, Simulator
 
 __all__ = ["open_pty"]
 
@@ -31,8 +31,12 @@ async def open_pty(simulator: Simulator) -> AsyncIterator[str]:
         path = os.ttyname(near)
 
         def write(data: bytes) -> None:
-            with suppress(BlockingIOError):
-                os.write(end, data)
+            try:
+                written = os.write(end, data)
+            except BlockingIOError:
+                written = 0
+            if written < len(data):
+                simulator.notice(UNREAD)
 
         host = Host(simulator, path, write)
         loop = asyncio.get_running_loop()

@@ -1,10 +1,13 @@
 """A bus of simulated modules, and the hosts that talk to it: the clock and chance are here, the rules are not.
 
-Laws: what modules do is what `i7000.device` says; hosts share the modules, not what they have half sent.
+Laws: what modules do is what `i7000.device` says; hosts share the modules, not what they have half sent. Nothing that a
+host sends, or does not read, makes the simulator grow: what there is no room for is lost, as on a line, and counted.
 """
 
 import asyncio
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from itertools import chain
 from random import Random
 from time import monotonic, time
 
@@ -12,16 +15,24 @@ from attrs import evolve, frozen
 
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
 from i7000.errors import I7000Error, Noise
-from i7000.simulator.faults import Faults
+from i7000.simulator.faults import Faults, Piece
+from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
 from i7000.simulator.observed import Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 
-__all__ = ["Host", "Simulated", "Simulator"]
+__all__ = ["MOST_LATE_BYTES", "MOST_LATE_PIECES", "UNREAD", "Host", "Simulated", "Simulator"]
 
+MOST_LATE_PIECES = 1 << 10
+"""Pieces of answers to one host that can be on their way."""
+MOST_LATE_BYTES = 1 << 16
+"""Bytes of these; an answer beyond either limit is lost whole."""
+UNREAD = "an answer was lost: its host does not read"
+"""A notice."""
 _SILENCE = 0.02
 """Seconds after which a frame of Modbus RTU is over: more than 3.5 characters, as networks do not keep time."""
 _MOST_FAULTS = 16
 """Faults that are remembered until there is something of which they can be told."""
+_LOST = "an answer was lost: too many are late"
 _TICK = 0.25
 """Seconds after which modules notice that time has passed, if nobody talks to them."""
 
@@ -38,7 +49,7 @@ class Simulated:
 class Simulator:
     """A bus of modules that have power."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - all but the modules are options
         self,
         modules: Iterable[Simulated],
         *,
@@ -46,17 +57,23 @@ class Simulator:
         seed: int = 0,
         store: Callable[[Sequence[Eeprom]], None] | None = None,
         observe: Callable[[Observed], None] | None = None,
+        report: Callable[[str], None] | None = None,
     ) -> None:
         """Give power to modules.
 
-        Shape: `store` is called with the EEPROMs of all modules when one has changed, `observe` with all traffic.
+        Shape: `store` is called with the EEPROMs of all modules when one has changed, `observe` with all traffic,
+            `report` with each notice when it is new.
         Special: the modules' time is that of the world, but never goes back.
         """
         self.faults = faults or Faults()
         self.chance = Random(seed)  # noqa: S311 - repeatable
         self.store = store
         self.observe = observe
-        self._ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self.report = report
+        self.notices: Counter[str] = Counter()
+        """What else there is to be known, and how often it happened."""
+        self.loop = asyncio.get_running_loop()
+        self._ended: asyncio.Future[None] = self.loop.create_future()
         self._epoch = time() - monotonic()
         self._began = self.now
         self._simulated = tuple(modules)
@@ -117,7 +134,14 @@ class Simulator:
         """Tell who observes the line."""
         if self.observe:
             at = self.now - self._began
-            self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults))
+            deaf = deaf_module(self.bus.modules, heard)
+            self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults, deaf))
+
+    def notice(self, text: str) -> None:
+        """Count something that is no traffic, and report it the first time."""
+        self.notices[text] += 1
+        if self.report and self.notices[text] == 1:
+            self.report(text)
 
     async def run(self) -> None:
         """Let time pass until `end` is called.
@@ -151,8 +175,14 @@ class Host:
         self._write = write
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._later: set[asyncio.TimerHandle] = set()
+        self._later: dict[asyncio.TimerHandle, int] = {}
+        """The pieces of answers that are on their way, and their lengths."""
+        self._finished: Callable[[], None] | None = None
         self._faults: tuple[str, ...] = ()
+        self._noises: list[tuple[Heard, tuple[str, ...]]] = []
+        """Noise that may turn out to be a frame of the other protocol, when the line is silent."""
+        self._not_understood = b""
+        """What was heard since the line was silent, or the last frame."""
 
     def receive(self, data: bytes) -> None:
         """Take what the host sends."""
@@ -166,7 +196,10 @@ class Host:
         if told and told[-1].answer is not None and ear.ends_with(told[-1].frame):
             bus, ear, others = bus.silence(ear, signals, now)  # A module answers when the line is silent.
             told += tuple([heard for heard in others if not isinstance(heard.frame, Noise)])
+        self._not_understood += carried
         self._take(bus, ear, told)
+        if len(self._not_understood) > LONGEST:
+            self._tell_noises()
 
     @property
     def uart(self) -> Uart | None:
@@ -177,6 +210,11 @@ class Host:
     def uart(self, uart: Uart) -> None:
         self.ear = evolve(self.ear, uart=uart)
 
+    def finish(self, finished: Callable[[], None]) -> None:
+        """Call `finished` as soon as no answer is on its way."""
+        self._finished = finished
+        self._check_finished()
+
     def close(self) -> None:
         """Disconnect it: nothing comes back any more."""
         self._stop_waiting()
@@ -185,7 +223,17 @@ class Host:
 
     def _silent(self) -> None:
         simulator = self.simulator
-        self._take(*simulator.bus.silence(self.ear, simulator.signals, simulator.now))
+        bus, ear, told = simulator.bus.silence(self.ear, simulator.signals, simulator.now)
+        if all(isinstance(heard.frame, Noise) for heard in told):
+            foreign = foreign_frames(bus.modules, self._not_understood)
+            if foreign:
+                told = foreign
+                self._faults = (*chain(*[faults for _, faults in self._noises]), *self._faults)[-_MOST_FAULTS:]
+                self._noises.clear()
+        self._take(bus, ear, told)
+        self._tell_noises()
+        self._stop_waiting()
+        self._check_finished()
 
     def _take(self, bus: Bus, ear: Ear, told: Sequence[Heard]) -> None:
         self.simulator.change(bus)
@@ -194,11 +242,22 @@ class Host:
         if told:
             self._faults = ()
         for heard in told:
+            if isinstance(heard.frame, Noise):
+                self._noises.append((heard, faults))
+                continue
+            self._tell_noises()
             happened = faults if heard.answer is None else (*faults, *self._answer(heard.answer, heard.delay))
             self.simulator.tell(self.name, heard, happened)
         self._stop_waiting()
-        if ear.waiting:
+        if ear.waiting or self._noises:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
+
+    def _tell_noises(self) -> None:
+        """Tell what has been no frame until now."""
+        noises, self._noises = self._noises, []
+        self._not_understood = b""
+        for heard, faults in noises:
+            self.simulator.tell(self.name, heard, faults)
 
     def _stop_waiting(self) -> None:
         if self._silence:
@@ -206,8 +265,13 @@ class Host:
             self._silence = None
 
     def _answer(self, answer: bytes, delay: float) -> tuple[str, ...]:
+        """Send an answer, and return what happened to it."""
         character_time = (self.uart or Uart()).character_time
         transfer = self.simulator.faults.delivered(answer, character_time, self.simulator.chance)
+        late = [piece for piece in transfer.pieces if delay + piece.after]
+        if late and not self._has_room(late):
+            self.simulator.notice(_LOST)
+            return *transfer.faults, _LOST
         for piece in transfer.pieces:
             if delay + piece.after:
                 self._write_later(delay + piece.after, piece.wire)
@@ -215,10 +279,19 @@ class Host:
                 self._write(piece.wire)
         return transfer.faults
 
+    def _has_room(self, late: Sequence[Piece]) -> bool:
+        size = sum(self._later.values()) + sum(len(piece.wire) for piece in late)
+        return len(self._later) + len(late) <= MOST_LATE_PIECES and size <= MOST_LATE_BYTES
+
     def _write_later(self, seconds: float, wire: bytes) -> None:
         def write() -> None:
-            self._later.discard(handle)
+            del self._later[handle]
             self._write(wire)
+            self._check_finished()
 
         handle = self._loop.call_later(seconds, write)
-        self._later.add(handle)
+        self._later[handle] = len(wire)
+
+    def _check_finished(self) -> None:
+        if self._finished and not self._later and not self._silence:
+            self._finished()

@@ -1,0 +1,258 @@
+"""``i7000 simulate`` as a process whose output nobody reads, or whose resources are used up: it goes on, and ends."""
+
+import os
+import pty
+import resource
+import select
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+MODEL = ("--model", "I-7018", "--signal", "all=1.5V")
+SAID = b">" + b"+1.5000" * 8 + b"\r"
+XTERM = os.environ | {"TERM": "xterm"}
+MAIN = "import sys; from i7000.cli import main; sys.exit(main())"
+AT_ONCE = 100
+ENOUGH = 20.0
+PROMPTLY = 3.0
+"""Seconds, on a machine that has much else to do."""
+
+
+@contextmanager
+def process(*arguments: str, **others: Any) -> Iterator["subprocess.Popen[bytes]"]:
+    command = [sys.executable, "-c", MAIN, "simulate", *MODEL, *arguments]
+    with subprocess.Popen(command, bufsize=0, **others) as started:  # noqa: S603 - ourselves
+        try:
+            yield started
+        finally:
+            started.kill()
+
+
+def place(line: bytes) -> tuple[str, int]:
+    """The address in a line such as ``socket://127.0.0.1:5020``."""
+    host, _, number = line.decode().strip().rpartition("/")[2].rpartition(":")
+    return host, int(number)
+
+
+def first_line(descriptor: int, begins: bytes = b"://") -> bytes:
+    """Read until there is a line that begins so, and no further than that line."""
+    heard = b""
+    deadline = monotonic() + ENOUGH
+    while not (heard.endswith(b"\n") and begins in heard):
+        assert select.select([descriptor], [], [], max(0, deadline - monotonic()))[0]
+        heard += os.read(descriptor, 1)
+    return heard
+
+
+def asked(host: socket.socket, command: bytes, answer: bytes, times: int) -> None:
+    """Have a command answered so many times."""
+    for _ in range(0, times, AT_ONCE):
+        count = min(times, AT_ONCE)
+        host.sendall(command * count)
+        heard = b""
+        while not heard.endswith(answer * count):
+            received = host.recv(4096)
+            assert received
+            heard += received
+
+
+def ended(started: "subprocess.Popen[bytes]") -> tuple[int, float]:
+    """End it by Ctrl-C, and tell the exit code and how long that took."""
+    began = monotonic()
+    started.send_signal(signal.SIGINT)
+    return started.wait(ENOUGH), monotonic() - began
+
+
+def read_all(descriptor: int, until: Callable[[bytes], bool] = lambda _: False) -> bytes:
+    """Read until something is there, or nothing comes any more."""
+    heard = b""
+    while not until(heard) and select.select([descriptor], [], [], 1)[0]:
+        with suppress(OSError):  # The other end of a pseudo-terminal is gone.
+            received = os.read(descriptor, 1 << 16)
+            if received:
+                heard += received
+                continue
+        break
+    return heard
+
+
+# --- a pipe -----------------------------------------------------------------------------------------------------------
+
+
+def test_lines_that_nobody_reads_hold_up_nothing() -> None:
+    with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
+        assert started.stdout
+        assert started.stderr
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+            asked(host, b"#01\r", SAID, 5_200)
+            code, took = ended(started)
+        errors = started.stderr.read()
+
+    assert code == 0
+    assert took < PROMPTLY
+    assert errors.startswith(b"i7000: ")
+    assert errors.endswith(b" lines not shown\n")
+
+
+def test_lines_that_were_dropped_are_counted_where_they_would_have_been() -> None:
+    with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
+        assert started.stdout
+        assert started.stderr
+        out = started.stdout.fileno()
+        with socket.create_connection(place(first_line(out)), timeout=5) as host:
+            asked(host, b"#01\r", SAID, 5_000)
+            shown = read_all(out, lambda heard: b"not shown\n" in heard)
+            asked(host, b"$01M\r", b"!017018\r", 1)
+            shown += read_all(out, lambda heard: b"!017018" in heard and heard.endswith(b"\n"))
+        code, _ = ended(started)
+        errors = started.stderr.read()
+
+    lines = shown.splitlines()
+    (missed,) = [number for number, line in enumerate(lines) if line.endswith(b" lines not shown")]
+    assert missed + int(lines[missed].split()[0]) == 2 * 5_000
+    assert b"ReadModuleName" in lines[missed + 1]
+    assert (code, errors) == (0, b"")
+
+
+def test_a_reader_that_is_gone_holds_up_nothing() -> None:
+    with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
+        assert started.stdout
+        assert started.stderr
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+            started.stdout.close()
+            asked(host, b"#01\r", SAID, 100)
+            code, _ = ended(started)
+        errors = started.stderr.read()
+
+    assert (code, errors) == (0, b"")
+
+
+# --- a terminal -------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def terminal() -> Iterator[tuple[int, int]]:
+    """A terminal, from the side of the person and from that of the program."""
+    person, program = pty.openpty()
+    try:
+        yield person, program
+    finally:
+        os.close(person)
+        os.close(program)
+
+
+@pytest.mark.parametrize("view", ["live", "lines"])
+def test_a_terminal_that_is_stopped_holds_up_nothing_and_gets_its_screen_back(view: str) -> None:
+    with (
+        terminal() as (person, program),
+        process("--tcp", "0", "--view", view, stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
+        socket.create_connection(place(first_line(person)), timeout=5) as host,
+    ):
+        asked(host, b"#01\r", SAID, 10)
+        os.write(person, b"\x13")
+        sleep(0.5)
+        before = read_all(person)
+        asked(host, b"#01\r", SAID, 5_000)
+        held = read_all(person)
+        code, took = ended(started)
+        after = read_all(person)
+
+    assert (code, held) == (0, b"")
+    assert took < PROMPTLY
+    assert before.count(b"\x1b[?1049h") == after.count(b"\x1b[?1049l") == (view == "live")
+    assert before.count(b"\x1b[?25l") == after.count(b"\x1b[?25h") == (view == "live")
+
+
+def test_a_terminal_that_goes_on_shows_what_is_there_then() -> None:
+    with (
+        terminal() as (person, program),
+        process("--tcp", "0", stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
+    ):
+        with socket.create_connection(place(first_line(person)), timeout=5) as host:
+            os.write(person, b"\x13")
+            asked(host, b"#01\r", SAID, 1_000)
+            asked(host, b"$01M\r", b"!017018\r", 1)
+            os.write(person, b"\x11")
+            shown = read_all(person, lambda heard: b"ReadModuleName" in heard)
+        code, _ = ended(started)
+
+    assert b"ReadModuleName" in shown
+    assert b"not shown" not in shown
+    assert code == 0
+
+
+def test_a_terminal_that_nobody_reads_holds_up_nothing() -> None:
+    with (
+        terminal() as (person, program),
+        process("--tcp", "0", stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
+        socket.create_connection(place(first_line(person)), timeout=5) as host,
+    ):
+        for _ in range(20):
+            asked(host, b"#01\r", SAID, 100)
+            sleep(0.1)
+        code, took = ended(started)
+
+    assert code == 0
+    assert took < PROMPTLY
+
+
+# --- file descriptors -------------------------------------------------------------------------------------------------
+
+
+def few_descriptors() -> None:
+    resource.setrlimit(resource.RLIMIT_NOFILE, (32, 32))
+
+
+@pytest.mark.parametrize("scheme", ["--tcp", "--rfc2217"])
+def test_without_file_descriptors_connections_wait_and_one_line_says_so(scheme: str) -> None:
+    with process(scheme, "0", stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=few_descriptors) as started:
+        assert started.stdout
+        assert started.stderr
+        where = place(first_line(started.stdout.fileno()))
+        with socket.create_connection(where, timeout=5) as first:
+            asked(first, b"$01M\r", b"!017018\r", 1)
+            with ExitStack() as stack:
+                for _ in range(60):
+                    stack.enter_context(socket.create_connection(where, timeout=5))
+                sleep(2.5)
+                asked(first, b"$01M\r", b"!017018\r", 100)
+            with socket.create_connection(where, timeout=5) as later:
+                asked(later, b"$01M\r", b"!017018\r", 1)
+        code, took = ended(started)
+        errors = started.stderr.read()
+
+    assert (code, errors) == (0, b"i7000: connections are not accepted for 1 s: Too many open files\n")
+    assert took < PROMPTLY
+
+
+def test_the_end_comes_however_full_the_pipe_of_errors_is() -> None:
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    with suppress(BlockingIOError):
+        while True:
+            os.write(writing, bytes(1 << 12))
+    os.set_blocking(writing, True)
+    with (
+        process(
+            "--tcp", "0", "--view", "none", stdout=subprocess.PIPE, stderr=writing, preexec_fn=few_descriptors
+        ) as started,
+        ExitStack() as stack,
+    ):
+        assert started.stdout
+        where = place(first_line(started.stdout.fileno()))
+        for _ in range(60):
+            stack.enter_context(socket.create_connection(where, timeout=5))
+        sleep(0.5)
+        code, took = ended(started)
+    os.close(reading)
+    os.close(writing)
+
+    assert code == 0
+    assert took < PROMPTLY
