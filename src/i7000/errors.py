@@ -6,7 +6,7 @@ legally say is never an error: a refusal (``?AA``) is a value.
 
 from enum import Enum
 
-from attrs import frozen
+from i7000.frozen import frozen
 
 __all__ = ["DecodeError", "EncodeError", "Fault", "I7000Error", "Noise", "shown"]
 

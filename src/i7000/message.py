@@ -4,11 +4,15 @@ Laws: a message that can be constructed has a wire form; whether a certain model
 """
 
 from collections.abc import Callable
-from typing import Any, ClassVar, get_args
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
 from attrs import fields
 
+import i7000.frozen
 from i7000.profile import Profile
+
+__all__ = ["CompiledOnce", "Message", "frozen", "type_of_answer"]
 
 _IN_HEX = ("address", "new_address", "mask")
 
@@ -24,6 +28,12 @@ class CompiledOnce:
         return kind.layout
 
 
+if TYPE_CHECKING:
+    from attrs import frozen
+else:
+    frozen = partial(i7000.frozen.frozen, eq=False, repr=False)  # whose comparison and text are those of `Message`
+
+
 class Message:
     """A message of one of the protocols.
 
@@ -35,12 +45,6 @@ class Message:
     section: ClassVar[str]
     title: ClassVar[str]
     layout: ClassVar[Any]
-
-    def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
-        # `frozen` writes none of these for a class that has its own, which halves the time to import a hundred classes.
-        for name in {"__eq__", "__hash__", "__repr__"} - vars(cls).keys():
-            setattr(cls, name, vars(Message)[name])
 
     def __attrs_post_init__(self) -> None:
         self.layout.check(self)

@@ -12,9 +12,10 @@ from functools import cached_property, total_ordering
 from types import MappingProxyType
 from typing import NamedTuple
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.errors import EncodeError
+from i7000.frozen import frozen
 from i7000.settings import Protocol
 from i7000.type_codes import TypeCode
 

@@ -1,8 +1,9 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.errors import EncodeError
+from i7000.frozen import frozen
 from i7000.models import AVAILABILITY, CONFIGURABLE, Firmware, Gates, Model
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode, Unit

@@ -8,9 +8,10 @@ from collections.abc import Iterable
 from enum import Enum, IntEnum
 from typing import Self
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.errors import EncodeError
+from i7000.frozen import frozen
 
 __all__ = [
     "BaudRate",

@@ -3,8 +3,9 @@
 import sys
 
 from tests.benchmarks import dcon, device, imports, load, modbus
+from tests.benchmarks.timing import summary
 
-missed = 0
+verdicts = []
 for results in (
     dcon.codec_results,
     dcon.splitter_results,
@@ -16,5 +17,6 @@ for results in (
 ):
     for result in results():
         print(result, flush=True)  # noqa: T201
-        missed += not result.met
-sys.exit(1 if missed else 0)
+        verdicts.append(result.verdict)
+print(summary(verdicts))  # noqa: T201
+sys.exit(1 if "MISSED" in verdicts else 0)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from i7000 import Model, Profile, modbus
-from tests.benchmarks.timing import Result, Task, at_least, at_most, best_times
+from tests.benchmarks.timing import Result, Task, at_least, at_most, best_times, not_compared
 
 PROFILE = Profile(Model.M_7017)
 REQUEST = modbus.ReadHoldingRegisters(0x01, 0, 10)
@@ -164,7 +164,7 @@ def codec_results() -> Iterator[Result]:
         try:
             peers[f"{name} encode"], peers[f"{name} decode"] = make()
         except ImportError:
-            yield Result(f"{name} is not installed: not compared", float("nan"), "-", met=True)
+            yield not_compared(f"{name}, which is not installed")
     for name, task in (ours | peers).items():
         if name.endswith(" encode"):
             assert task() == REQUEST_FRAME, name

@@ -2,11 +2,16 @@
 
 import gc
 import time
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterable
+from math import isnan, nan
 
 from attrs import frozen
 
 Task = Callable[[], object]
+
+
+NO_TARGET = "-"
 
 
 @frozen
@@ -15,11 +20,39 @@ class Result:
 
     what: str
     ratio: float
+    """Not a number if nothing could be compared."""
     target: str
+    """`NO_TARGET` for a figure that is only shown."""
     met: bool
 
+    @property
+    def verdict(self) -> str:
+        """What came of it, in a word or two."""
+        if isnan(self.ratio):
+            return "not compared"
+        if self.target == NO_TARGET:
+            return "shown"
+        return "ok" if self.met else "MISSED"
+
     def __str__(self) -> str:
-        return f"{'ok  ' if self.met else 'MISS'} {self.ratio:8.2f}  {self.target:>8}  {self.what}"
+        ratio = "" if isnan(self.ratio) else f"{self.ratio:.2f}"
+        return f"{self.verdict:12} {ratio:>8}  {self.target:>8}  {self.what}"
+
+
+def not_compared(what: str) -> Result:
+    """What could not be measured here."""
+    return Result(what, nan, NO_TARGET, met=False)
+
+
+def shown(what: str, figure: float) -> Result:
+    """A figure without a target."""
+    return Result(what, figure, NO_TARGET, met=True)
+
+
+def summary(verdicts: Iterable[str]) -> str:
+    """Count the verdicts, best first."""
+    counts = Counter(verdicts)
+    return ", ".join(f"{counts[verdict]} {verdict}" for verdict in ("ok", "MISSED", "not compared", "shown"))
 
 
 def best_times(tasks: dict[str, Task], *, turns: int = 25, seconds: float = 0.02) -> dict[str, float]:

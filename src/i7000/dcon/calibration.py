@@ -5,10 +5,11 @@ opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and 
 7019 series, and ``0`` span for those of the M-7017mC-16; the model decides, never the characters (E7, E9).
 """
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, check_channel
+from i7000.message import frozen
 from i7000.profile import Profile
 
 __all__ = [

@@ -155,10 +155,9 @@ def _key(text: str) -> str:
     return text[0] + text[3:4] if text[0] in _LETTERED else text[0]
 
 
-_BY_KEY: dict[str, tuple[type[AnyCommand], ...]] = {
-    key: tuple(command for command in COMMANDS if _key(command.syntax) == key)
-    for key in {_key(command.syntax) for command in COMMANDS}
-}
+_BY_KEY: dict[str, tuple[type[AnyCommand], ...]] = {}
+for _command in COMMANDS:
+    _BY_KEY[_key(_command.syntax)] = (*_BY_KEY.get(_key(_command.syntax), ()), _command)
 
 
 def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:

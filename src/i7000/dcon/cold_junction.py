@@ -1,10 +1,11 @@
 """Cold-junction compensation: temperature, offset, update, switch (2.11, 2.17, 2.18, 2.20, 2.21, 2.29, 2.30)."""
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
+from i7000.message import frozen
 from i7000.profile import Profile
 
 __all__ = [

@@ -6,8 +6,6 @@ command names its response by type: ``class ReadConfiguration(Command[Configurat
 
 from typing import Any, ClassVar, Generic, TypeVar
 
-from attrs import frozen
-
 from i7000 import message
 from i7000.dcon.layout import Address, Layout
 from i7000.errors import EncodeError
@@ -44,7 +42,7 @@ class Broadcast(Message):
     __slots__ = ()
 
 
-@frozen
+@message.frozen
 class Command(Message, Generic[R]):
     """A command to one module, and the type of its valid response."""
 
@@ -53,7 +51,7 @@ class Command(Message, Generic[R]):
     address: Address
 
     def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
+        super(Command, cls).__init_subclass__()  # noqa: UP008 - `frozen`
         cls.response = message.type_of_answer(cls)
 
     @property
@@ -62,7 +60,7 @@ class Command(Message, Generic[R]):
         return self.address
 
 
-@frozen
+@message.frozen
 class Acknowledged(Response):
     """Say that a command was carried out.
 
@@ -77,7 +75,7 @@ class Acknowledged(Response):
     address: Address
 
 
-@frozen
+@message.frozen
 class Refused(Response):
     """Say that a command is well-formed but was not carried out: the invalid response of every command.
 

@@ -6,11 +6,12 @@ that was not meant.
 
 from typing import Any
 
-from attrs import evolve, frozen
+from attrs import evolve
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response, check_channel, check_type_code
 from i7000.errors import EncodeError
+from i7000.message import frozen
 from i7000.profile import Profile
 from i7000.settings import BaudRate, CharacterFormat, DataFormat, Filter
 from i7000.type_codes import MIXED

@@ -3,11 +3,12 @@
 Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
 """
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.errors import EncodeError
+from i7000.message import frozen
 from i7000.profile import Profile
 
 __all__ = [

@@ -9,12 +9,13 @@ Laws: the constructor takes exactly the values that a part `accepts`; what a par
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
-from attrs import fields, frozen
+from attrs import fields
 
 from i7000.dcon.frame import LONGEST_FRAME
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.frozen import frozen
 from i7000.profile import Profile
 from i7000.readings import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
@@ -25,8 +26,7 @@ from i7000.type_codes import TypeCode
 _DIGITS = "0123456789ABCDEF"
 
 
-@frozen(eq=False)
-class Part:
+class Part(NamedTuple):
     """One field's place in a syntax."""
 
     notation: str

@@ -3,10 +3,11 @@
 Laws: the second letter of ``~AAEO`` is the letter O, where ``~AAE0`` with the digit 0 forbids calibration (E10).
 """
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
+from i7000.message import frozen
 
 __all__ = ["OpenWireDetection", "ReadOpenWireDetection", "SetOpenWireDetection"]
 

@@ -3,11 +3,12 @@
 Models: 7019 series.
 """
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Broadcast, Command, Response
 from i7000.dcon.inputs import check_values
+from i7000.message import frozen
 from i7000.profile import Profile
 
 __all__ = ["ReadSynchronizedData", "SynchronizedData", "SynchronizedSampling"]

@@ -1,9 +1,10 @@
 """The host watchdog: a module that hears no host for too long remembers it (manual 2.35 to 2.39, A.2)."""
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Broadcast, Command, Response
+from i7000.message import frozen
 
 __all__ = [
     "HostOk",

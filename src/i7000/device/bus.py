@@ -9,7 +9,7 @@ from functools import lru_cache
 from itertools import zip_longest
 from typing import NamedTuple
 
-from attrs import evolve, field, frozen
+from attrs import evolve, field
 
 from i7000 import dcon, modbus
 from i7000.device.module import is_for, step
@@ -17,6 +17,7 @@ from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.device.uart import Uart, hear_at
 from i7000.errors import EncodeError, Noise
+from i7000.frozen import frozen
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 

@@ -8,7 +8,9 @@ from collections.abc import Mapping
 from enum import IntEnum
 from math import ceil, floor
 
-from attrs import evolve, frozen
+from attrs import evolve
+
+from i7000.frozen import frozen
 
 __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 

@@ -6,9 +6,10 @@ own speed gives, without the characters whose parity or stop bit is wrong. Error
 
 from itertools import pairwise
 
-from attrs import field, frozen
+from attrs import field
 
 from i7000.errors import EncodeError
+from i7000.frozen import frozen
 from i7000.settings import BaudRate, LineSettings
 
 __all__ = ["Uart", "hear_at"]

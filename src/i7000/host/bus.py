@@ -13,10 +13,11 @@ from collections.abc import Iterable
 from math import inf
 from typing import Any, Generic, Never, TypeVar, overload
 
-from attrs import evolve, field, frozen
+from attrs import evolve, field
 
 from i7000 import dcon, modbus
 from i7000.errors import DecodeError, EncodeError, Noise
+from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
 from i7000.host.exchange import Exchange, answers, finish, split
 from i7000.profile import Profile

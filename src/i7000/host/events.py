@@ -7,10 +7,9 @@ out.
 
 from typing import Any, Generic, TypeVar
 
-from attrs import frozen
-
 from i7000 import dcon, modbus
 from i7000.errors import Fault, Noise
+from i7000.frozen import frozen
 
 __all__ = [
     "Answered",

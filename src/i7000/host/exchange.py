@@ -5,10 +5,9 @@ Laws: what depends on the protocol is here, what depends on time is in `i7000.ho
 
 from typing import Any, Generic, TypeVar
 
-from attrs import frozen
-
 from i7000 import dcon, modbus
 from i7000.errors import Fault, Noise
+from i7000.frozen import frozen
 from i7000.host.events import Answered, AnyCommand, Declined
 from i7000.profile import Profile
 

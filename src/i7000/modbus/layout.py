@@ -20,9 +20,10 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial, update_wrapper
 from typing import Annotated, Any, NamedTuple
 
-from attrs import fields, frozen
+from attrs import fields
 
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.frozen import frozen
 from i7000.modbus.frame import WordStructs
 from i7000.profile import Profile
 from i7000.readings import signed
@@ -32,8 +33,7 @@ from i7000.type_codes import TypeCode
 # --- fields -----------------------------------------------------------------------------------------------------------
 
 
-@frozen(eq=False)
-class Item:
+class Item(NamedTuple):
     """What a field of a PDU can be."""
 
     allowed: str

@@ -3,9 +3,8 @@
 Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
 """
 
-from attrs import frozen
-
 from i7000.errors import EncodeError
+from i7000.message import frozen
 from i7000.modbus import layout
 from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
 from i7000.profile import Profile

@@ -8,9 +8,10 @@ beyond the range, is told as it is read and not written.
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from attrs import evolve, field, frozen
+from attrs import evolve, field
 
 from i7000.errors import DecodeError, EncodeError, Fault, shown
+from i7000.frozen import frozen
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
 from i7000.modbus.request import ExceptionResponse, Request

@@ -8,9 +8,8 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import Any
 
-from attrs import frozen
-
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.frozen import frozen
 from i7000.modbus.module_settings import check_line
 from i7000.modbus.registers import Kind, Register
 from i7000.profile import Profile

@@ -7,8 +7,9 @@ thing has one name in every map, and a row for each of its numbers where the man
 from collections.abc import Iterator
 from enum import Enum
 
-from attrs import evolve, frozen
+from attrs import evolve
 
+from i7000.frozen import frozen
 from i7000.modbus.cold_junction import OFFSET_LIMIT
 from i7000.models import CONFIGURABLE, Gates, Model, gates, series
 from i7000.profile import Profile

@@ -7,8 +7,6 @@ exception, is a value too: `ExceptionResponse`.
 from enum import IntEnum
 from typing import ClassVar, Generic, TypeVar
 
-from attrs import frozen
-
 from i7000 import message
 from i7000.modbus.layout import Address, Byte, ExceptionFunction, Layout
 
@@ -37,7 +35,7 @@ class ExceptionCode(IntEnum):
     GATEWAY_TARGET_DEVICE_FAILED_TO_RESPOND = 0x0B
 
 
-@frozen
+@message.frozen
 class Message(message.Message):
     """A Modbus message: a request or a response.
 
@@ -75,7 +73,7 @@ class Request(Message, Generic[R]):
         cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None
 
 
-@frozen
+@message.frozen
 class SettingResult(Response):
     """Tell whether a setting was made.
 
@@ -85,7 +83,7 @@ class SettingResult(Response):
     result: Byte
 
 
-@frozen
+@message.frozen
 class ExceptionResponse(Response):
     """Say that a request was not carried out, and why: the answer that any request can have.
 

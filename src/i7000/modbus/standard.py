@@ -3,9 +3,8 @@
 Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kind before: 40489 is holding register 488.
 """
 
-from attrs import frozen
-
 from i7000.errors import EncodeError
+from i7000.message import frozen
 from i7000.modbus import layout
 from i7000.modbus.request import Request, Response
 from i7000.profile import Profile

@@ -11,7 +11,7 @@ from typing import Any
 
 
 def register() -> None:
-    """Tell Hypothesis of the strategies; it calls this itself, through its entry-point group."""
+    """Register the strategies of all public classes with Hypothesis, as its documentation says."""
     from hypothesis.strategies import register_type_strategy  # noqa: PLC0415 - it may be being imported
 
     import i7000.dcon  # noqa: PLC0415 - only for its names
@@ -22,19 +22,22 @@ def register() -> None:
     for module in (i7000, i7000.dcon, i7000.modbus, i7000.device, i7000.host):
         for kind in (getattr(module, name) for name in module.__all__):
             if isinstance(kind, type) and not issubclass(kind, Enum):  # Hypothesis knows what to do with an Enum.
-                register_type_strategy(kind, partial(_strategy, kind))
+                register_type_strategy(kind, partial(strategy_for, kind))
 
 
-def _strategy(kind: Any, _: object) -> Any:  # noqa: ANN401 - a class, and the strategy for it
-    """Make the strategy for a class when it is asked for."""
+def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class, and the strategy for it
+    """Return the strategy for a class of the package; None for an enumeration, and for a class that has none."""
     by_kind = {**vocabulary.BY_KIND, **maps.BY_KIND, **device.BY_KIND, **host.BY_KIND}
     if kind in by_kind:
         return by_kind[kind]()
-    return modbus.messages(kind) if issubclass(kind, Message) else dcon.messages(kind)
+    if issubclass(kind, ModbusMessage):
+        return modbus.messages(kind)
+    return dcon.messages(kind) if issubclass(kind, DconMessage) else None
 
 
-# Hypothesis asks for `register` while it is being imported, which may be by the modules that follow.
-from i7000.modbus import Message  # noqa: E402
+# Hypothesis may call `register` while it is being imported, which may be by the modules that follow.
+from i7000.dcon import Message as DconMessage  # noqa: E402
+from i7000.modbus import Message as ModbusMessage  # noqa: E402
 from i7000.strategies import dcon, device, host, modbus, vocabulary  # noqa: E402
 from i7000.strategies.modbus import maps  # noqa: E402
 from i7000.strategies.vocabulary import (  # noqa: E402
@@ -61,5 +64,6 @@ __all__ = [
     "readings",
     "register",
     "report_settings",
+    "strategy_for",
     "word_readings",
 ]

@@ -1,0 +1,55 @@
+"""What Hypothesis calls when it is imported, so that `st.from_type` knows every public class of `i7000`.
+
+It stands beside the package, because an import of anything in the package imports attrs and the vocabulary, and this is
+imported by everyone who has both distributions. So it imports neither `i7000` nor its strategies: Hypothesis lets a
+package resolve its own classes, as it does for NumPy, and asks when it meets the first.
+
+Laws: `register` never raises, whatever the version of Hypothesis.
+"""
+
+import warnings
+from contextlib import suppress
+from typing import Any, get_origin
+
+NEEDED = (6, 120)
+"""The first version of Hypothesis that the strategies work with: that of the extra ``hypothesis``."""
+
+
+def register() -> None:
+    """Have Hypothesis ask `resolve` for strategies; warn where that is impossible."""
+    try:
+        reason = _register()
+    except Exception as error:  # noqa: BLE001 - it is not for us to make an import of Hypothesis fail
+        reason = repr(error)
+    if reason:
+        with suppress(UserWarning):  # where warnings are errors
+            warnings.warn(f"st.from_type will not know the classes of i7000: {reason}", stacklevel=2)
+
+
+def _register() -> str:
+    """Return why it is impossible, or nothing."""
+    from hypothesis.version import __version__, __version_info__  # noqa: PLC0415 - it is being imported
+
+    if __version_info__ < NEEDED:
+        return f"Hypothesis {'.'.join(map(str, NEEDED))} or later is needed, this is {__version__}"
+    from hypothesis.strategies._internal import types  # noqa: PLC0415
+
+    try:
+        resolvers = types._global_extra_lookup  # noqa: SLF001
+    except AttributeError:  # It is not documented. What is documented needs the classes.
+        from i7000 import strategies  # noqa: PLC0415
+
+        strategies.register()
+    else:
+        resolvers["i7000"] = resolve
+    return ""
+
+
+def resolve(thing: Any) -> Any:  # noqa: ANN401 - whatever `st.from_type` is asked for
+    """Return the strategy for a class of `i7000`, or None for anything else."""
+    kind = get_origin(thing) or thing  # of Command[Any]
+    if not isinstance(kind, type) or not str(kind.__module__).startswith("i7000."):
+        return None
+    from i7000.strategies import strategy_for  # noqa: PLC0415 - the first that is asked for imports them
+
+    return strategy_for(kind)

@@ -1,0 +1,59 @@
+"""`frozen` makes what `attrs.frozen` makes of a class, but not before the class is used.
+
+To make a hundred classes takes attrs longer than the rest of an import, so an import gives a class only its slots.
+The first call of its constructor, or the first question of attrs about its fields, has attrs make the rest.
+
+Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: all make the same.
+"""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, get_origin
+
+import attrs
+
+__all__ = ["frozen"]
+
+_AWAITED = ("__init__", "__setattr__", "__delattr__", "__setstate__", "__attrs_attrs__", "__match_args__")
+"""What can be asked of a class that was never constructed; the rest is asked of instances."""
+
+
+class _Awaited:
+    """An attribute of a class that attrs has not made yet."""
+
+    def __init__(self, plain: type, options: dict[str, Any]) -> None:
+        self._plain = plain
+        self._options = options
+
+    def __set_name__(self, kind: type, name: str) -> None:
+        self._kind = kind
+        self._name = name
+
+    def __get__(self, instance: object, kind: type) -> Any:  # noqa: ANN401 - whatever attrs makes
+        made, own = vars(attrs.frozen(self._plain, **self._options)), vars(self._kind)
+        for name in sorted(made, key=_AWAITED.__contains__):  # what other threads may be waiting for comes last
+            if name not in own or isinstance(own[name], _Awaited):
+                setattr(self._kind, name, made[name])
+        found = own[self._name]
+        return found.__get__(instance, kind) if hasattr(found, "__get__") else found
+
+
+if TYPE_CHECKING:
+    from attrs import frozen
+else:
+
+    def frozen(kind: type | None = None, **options: bool) -> type | Callable[[type], type]:
+        """Make a frozen class with slots from a class with annotated fields, as `attrs.frozen` does.
+
+        Shape: `options` are ``eq``, ``repr`` and ``kw_only`` of attrs. The result is a new class, so that `super()` in
+            its methods must name it: ``super(Command, cls)``.
+        """
+        if kind is None:
+            return lambda kind: frozen(kind, **options)
+        namespace = dict(vars(kind))
+        fields = [name for name, annotation in kind.__annotations__.items() if get_origin(annotation) is not ClassVar]
+        slots = [*fields, "__weakref__"] if "__weakref__" in namespace else fields
+        for name in (*fields, "__weakref__", "__dict__"):
+            namespace.pop(name, None)
+        awaited = {name: _Awaited(kind, options) for name in _AWAITED if name not in namespace}
+        namespace |= {"__qualname__": kind.__qualname__, "__slots__": tuple(slots), **awaited}
+        return type(kind)(kind.__name__, kind.__bases__, namespace)
