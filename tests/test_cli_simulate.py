@@ -1,6 +1,7 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
 import asyncio
+import errno
 import os
 import re
 import signal
@@ -21,7 +22,7 @@ from i7000 import Model
 from i7000.cli.simulate import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
-from i7000.simulator.memory import load, save
+from i7000.simulator.memory import held, load, save
 from tests.terminal import Run, Told
 
 KELVIN = "M-7019R@B3.7,type=K,protocol=dcon"
@@ -51,6 +52,13 @@ def talk(url: str, *frames: bytes) -> list[bytes]:
             opened.write(frame)
             answers.append(opened.read_until(b"\r"))
         return answers
+
+
+def unanswered(port: int, frame: bytes) -> bytes:
+    """Say a DCON frame, and return what comes until the simulator hangs up: nothing, if all is well."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as opened:
+        opened.sendall(frame)
+        return opened.recv(100)
 
 
 def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object]) -> Told:
@@ -216,22 +224,60 @@ def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path)
         talk(f"socket://127.0.0.1:{port}", b"$01M\r")
         memory.unlink()
         os.mkfifo(memory)
-        talk(f"socket://127.0.0.1:{port}", b"~01OABC\r")
+        answers.append(unanswered(port, b"~01OABC\r"))
+
+    answers: list[bytes] = []
+    doing = Thread(target=meanwhile)
+    doing.start()
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
+    doing.join()
+
+    assert answers == [b""]
+    assert told.code == 2
+    assert "is a device or pipe" in told.err
+
+
+def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "nowhere" / "modules.json"
+
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
+
+    assert (told.code, told.out) == (2, "")
+    assert told.err == f"i7000: [Errno 2] No such file or directory: '{memory}'\n"
+
+
+def test_a_file_that_another_simulator_uses_is_refused(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+
+    with held(memory):
+        told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
+
+    assert (told.code, told.out) == (2, "")
+    assert told.err.startswith(f"i7000: {memory}: the file itself: is used by another simulator")
+
+
+def test_what_a_full_disk_does_not_store_is_not_acknowledged(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    memory, port = tmp_path / "modules.json", free_port()
+    answers = []
+
+    def full(_: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    def meanwhile() -> None:
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"$01M\r"))
+        monkeypatch.setattr(os, "fsync", full)
+        answers.append(unanswered(port, b"~01OABC\r"))
 
     doing = Thread(target=meanwhile)
     doing.start()
     told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
     doing.join()
 
-    assert told.code == 2
-    assert "is a device or pipe" in told.err
-
-
-def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(tmp_path / "nowhere" / "modules.json"))
-
-    assert told.code == 2
-    assert "nowhere" in told.err
+    assert answers == [b"!017019R\r", b""]
+    assert (told.code, told.err) == (2, f"i7000: [Errno 28] No space left on device: '{memory}'\n")
+    assert [eeprom.name for eeprom in load(memory)] == ["7019R"]
 
 
 # --- wrong usage ------------------------------------------------------------------------------------------------------

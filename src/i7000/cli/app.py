@@ -325,16 +325,17 @@ def simulate(  # noqa: PLR0913 - each of them is an option
         for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
         if text is not None
     ]
-    simulated = simulating.Simulation(
-        simulating.read_modules(model, signal, seed=seed, memory=eeprom),
-        simulating.read_faults(fault),
-        seed,
-        eeprom,
-        pty or not places,
-        tuple(places),
-        view or ("live" if printer.out.is_terminal else "none"),
-    )
-    return simulating.run(simulated, printer)
+    with simulating.held(eeprom):
+        simulated = simulating.Simulation(
+            simulating.read_modules(model, signal, seed=seed, memory=eeprom),
+            simulating.read_faults(fault),
+            seed,
+            eeprom,
+            pty or not places,
+            tuple(places),
+            view or ("live" if printer.out.is_terminal else "none"),
+        )
+        return simulating.run(simulated, printer)
 
 
 # --- run --------------------------------------------------------------------------------------------------------------

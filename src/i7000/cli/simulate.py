@@ -6,8 +6,8 @@ Laws: what some options need and others do not is imported when it is asked for.
 import asyncio
 import signal
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import AsyncExitStack, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AsyncExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,7 +27,7 @@ from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.tcp import LOOPBACK, Connection, listen
 
-__all__ = ["Place", "Simulation", "read_faults", "read_modules", "read_place", "run"]
+__all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_place", "run"]
 
 
 @frozen
@@ -51,6 +51,25 @@ class Simulation:
     pty: bool
     places: tuple[Place, ...]
     view: str
+
+
+@contextmanager
+def held(memory: Path | None) -> Iterator[None]:
+    """Keep other simulators from the file in which the modules remember, if there is one.
+
+    Errors: `UsageError` if another one uses it; that or `OSError` if it cannot be written.
+    """
+    if memory is None:
+        yield
+        return
+    from i7000.simulator.memory import MemoryFileError  # noqa: PLC0415
+    from i7000.simulator.memory import held as held_file  # noqa: PLC0415
+
+    try:
+        with held_file(memory):
+            yield
+    except MemoryFileError as error:
+        raise UsageError(error) from None
 
 
 def read_modules(
