@@ -23,6 +23,7 @@ from i7000.cli.simulate import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
 from i7000.simulator.memory import held, load, save
+from i7000.simulator.recordings import MOST_BYTES, MOST_ROWS
 from tests.terminal import Run, Told
 
 KELVIN = "M-7019R@B3.7,type=K,protocol=dcon"
@@ -160,6 +161,13 @@ def test_faults_are_those_of_the_seed(run: Run) -> None:
         return told
 
     assert answers("--seed", "7") == answers("--seed", "7") != answers()
+
+
+def test_the_help_says_what_a_recording_is_and_how_long_it_may_be(run: Run) -> None:
+    told = " ".join(run("simulate", "--help").out.replace("│", "").split())
+
+    assert all(name in told for name in ("seconds", "cold_junction", "open wire"))
+    assert f"At most {MOST_ROWS:,} rows and {MOST_BYTES // 10**6} MB." in told
 
 
 # --- what is remembered -----------------------------------------------------------------------------------------------

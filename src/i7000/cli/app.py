@@ -308,10 +308,14 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     * Signals: `0=1.5V`, `all=25degC`, `02:0-3=sine:20:5:60`, `4=ramp:4mA:20mA:10`, `5=noise:100:0.5`, `6=open`,
       `7=csv:FILE`, `cjc=31.5`; units are those of the types unless given, times seconds. Unless given, each channel has
       another value within its range.
+    * A CSV file starts with a line of column names: `seconds`, the number of each channel (`0,1,2`), and
+      `cold_junction` for `cjc`; others are ignored. Each further line has one value for every column, decimals with a
+      point, and `open` for an open wire. The seconds rise; a row holds until the next one. At most 2,000,000 rows and
+      200 MB.
     * Faults: `echo`, `lumps` (answers come every 16 ms), `drop=P`, `flip=P` (of a byte), `noise=P`, `late=P[:SECONDS]`
       (of an answer), P being a probability.
     * The file of `--eeprom` is made if it is not there; if it is, what it has stored is what the modules remember, and
-      `--model` may be left out.
+      `--model` may be left out. One simulator at a time uses the file.
 
     Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
 
