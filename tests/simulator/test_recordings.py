@@ -146,8 +146,8 @@ def test_a_recording_that_cannot_be_read_names_line_and_reason(path: Path, conte
 @pytest.mark.parametrize(
     "text",
     [
-        "", "nan", "inf", "-Infinity", "1e999", "-1e999", "1_000", "1 000", "0x10", "1e", ".", "+", "--1", "+open", "OPEN",
-        "\N{FULLWIDTH DIGIT ONE}", "1\N{ARABIC DECIMAL SEPARATOR}5",
+        "", "nan", "inf", "-Infinity", "1e999", "-1e999", "1_000", "1 000", "0x10", "1e", ".", "+", "--1", "+open",
+        "OPEN", "\N{FULLWIDTH DIGIT ONE}", "1\N{ARABIC DECIMAL SEPARATOR}5",
     ],
 )  # fmt: skip
 def test_what_is_no_number_is_refused(path: Path, text: str) -> None:
@@ -226,7 +226,7 @@ print(rows, time, (after.ru_maxrss - before.ru_maxrss) / 1024)
 
 
 def test_a_million_rows_take_little_time_and_memory(path: Path) -> None:
-    """As much as counting to 60 million, and 40 MB: a start in 3 s within 100 MB, on any machine."""
+    """As much as counting to 40 million, and 40 MB: a start in 3 s within 100 MB, on any machine."""
     with path.open("w") as file:
         csv.writer(file).writerows([("seconds", "0"), *((row / 10, row % 997 / 100) for row in range(1_000_000))])
 
@@ -234,5 +234,5 @@ def test_a_million_rows_take_little_time_and_memory(path: Path) -> None:
     rows, time, megabytes = map(float, told.stdout.split())
 
     assert rows == 1_000_000
-    assert time < 6
+    assert time < 4
     assert megabytes < 40

@@ -10,8 +10,9 @@ import os
 import re
 from array import array
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import islice
-from math import inf
+from math import inf, isfinite, nan
 from operator import ge
 from typing import TextIO
 
@@ -29,7 +30,9 @@ _BLOCK = 1 << 16
 _SHOWN = 60
 """Characters of a file that a message shows."""
 
-_NUMBER = r"[+-]?(?:[0-9]++(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?+[ \t]*+"
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_LIKE_A_NUMBER = r"[0-9.eE+ \t-]++"
+"""What has no other characters than numbers, and is one if `float` takes it."""
 _QUOTED = re.compile(r"""(?:^|(?<=,))"(?:[^"\n]++|"")*+"(?=[,\n])""", re.MULTILINE)
 """A quoted cell, which only a column that is not read may have in a block that is read at once."""
 
@@ -55,9 +58,9 @@ def _recorded(text: TextIO, units: Mapping[str, Unit]) -> dict[str, Recorded]:
     found = {name: array("d") for name in columns.names}
     seconds = found["seconds"]
     for first, block in _blocks(text, line + 1):
-        lines, cells = columns.read(first, block)
-        for name, column in zip(columns.names, cells, strict=False):
-            found[name].fromlist(_numbers(name, lines, column))
+        lines, numbers = columns.read(first, block)
+        for name, column in zip(columns.names, numbers, strict=True):
+            found[name].fromlist(column)
         _check_seconds(seconds, lines)
     if not seconds:
         raise EncodeError("rows", 0, "one at least", "", f"line {line}: no rows follow")
@@ -96,38 +99,59 @@ class _Columns:
     def __init__(self, header: Sequence[str], names: Collection[str]) -> None:
         self.names = [name for name in header if name in names]
         self._header = header
-        forms = (rf"(?:[ \t]*+{_form(name)})" if name in names else r'[^",\n]*+' for name in header)
+        forms = (_form(name) if name in names else r'[^",\n]*+' for name in header)
         self._rows = re.compile(rf"(?:{','.join(forms)}\n)*+")
 
-    def read(self, first: int, block: str) -> tuple[Sequence[int], list[Sequence[str]]]:
-        """Return the numbers of the lines of a block that are rows, and the cells of each column that is read."""
+    def read(self, first: int, block: str) -> tuple[Sequence[int], list[list[float]]]:
+        """Return the numbers of the lines of a block that are rows, and what is in each column that is read."""
         plain = _QUOTED.sub("", block) if '"' in block else block
         if self._rows.fullmatch(plain):
             cells = plain.replace("\n", ",").split(",")
-            columns: list[Sequence[str]] = [
-                cells[self._header.index(name) : -1 : len(self._header)] for name in self.names
-            ]
-            return range(first, first + len(columns[0])), columns
+            columns = (cells[self._header.index(name) : -1 : len(self._header)] for name in self.names)
+            with suppress(ValueError):
+                return range(first, first + plain.count("\n")), list(map(_numbers, columns))
         rows = {}
         for line, text in enumerate(block.split("\n"), first):
             row = _cells(line, text)
             if any(row):
-                rows[line] = self._row_of(line, row)
-        return list(rows), list(zip(*rows.values(), strict=True))
+                rows[line] = self._row(line, row)
+        return list(rows), [[row[name] for row in rows.values()] for name in self.names]
 
-    def _row_of(self, line: int, cells: Sequence[str]) -> tuple[str, ...]:
+    def _row(self, line: int, cells: Sequence[str]) -> dict[str, float]:
+        """Return what is in the columns that are read."""
         if len(cells) != len(self._header):
             allowed = f"one for each of {len(self._header)} columns, decimals with a point"
             raise EncodeError("row", cells, allowed, "", f"line {line}: there are {len(cells)} values")
-        named = [(name, cell) for name, cell in zip(self._header, cells, strict=True) if name in self.names]
-        for name, cell in named:
-            if not re.fullmatch(_form(name), cell):
-                raise _wrong(line, name, cell)
-        return tuple([cell for _, cell in named])
+        named = zip(self._header, cells, strict=True)
+        return {name: _number(line, name, cell) for name, cell in named if name in self.names}
 
 
 def _form(name: str) -> str:
-    return _NUMBER if name == "seconds" else f"{_NUMBER}|open"
+    return _LIKE_A_NUMBER if name == "seconds" else f"(?:{_LIKE_A_NUMBER}|open)"
+
+
+def _numbers(cells: Sequence[str]) -> list[float]:
+    """Convert the cells of a column; an open wire is nan.
+
+    Errors: `ValueError` that names no line, also for a number too large for a float.
+    """
+    if "open" in cells:
+        cells = ["nan" if cell == "open" else cell for cell in cells]
+    numbers = list(map(float, cells))
+    if not isfinite(sum(numbers)) and inf in map(abs, numbers):
+        raise ValueError(inf)
+    return numbers
+
+
+def _number(line: int, name: str, cell: str) -> float:
+    """Convert one cell; an open wire is nan."""
+    if cell == "open" and name != "seconds":
+        return nan
+    number = float(cell) if _NUMBER.fullmatch(cell) else inf
+    if not isfinite(number):
+        allowed = "a number as 12.5 or -1e-3" + ("" if name == "seconds" else ", or open")
+        raise EncodeError(name, cell, allowed, "", f"line {line}: {name} cannot be {cell!r:.{_SHOWN}}")
+    return number
 
 
 def _cells(line: int, text: str) -> list[str]:
@@ -135,15 +159,6 @@ def _cells(line: int, text: str) -> list[str]:
         return [cell.strip() for row in csv.reader([text], strict=True) for cell in row]
     except csv.Error as error:
         raise EncodeError("line", line, "values with commas between", "", f"line {line}: {error}") from None
-
-
-def _numbers(name: str, lines: Sequence[int], cells: Sequence[str]) -> list[float]:
-    """Convert the cells of a column; an open wire is nan."""
-    numbers = list(map(float, ["nan" if cell == "open" else cell for cell in cells] if "open" in cells else cells))
-    if inf in map(abs, numbers):
-        at = list(map(abs, numbers)).index(inf)
-        raise _wrong(lines[at], name, cells[at])
-    return numbers
 
 
 def _check_seconds(seconds: "array[float]", lines: Sequence[int]) -> None:
@@ -158,8 +173,3 @@ def _check_seconds(seconds: "array[float]", lines: Sequence[int]) -> None:
         at = next(at for at in range(max(1, start), len(seconds)) if seconds[at - 1] >= seconds[at])
         reason = f"line {lines[at - start]}: seconds cannot be {seconds[at]}"
         raise EncodeError("seconds", seconds[at], f"more than the {seconds[at - 1]:g} before", "", reason)
-
-
-def _wrong(line: int, name: str, cell: str) -> EncodeError:
-    allowed = "a number as 12.5 or -1e-3" + ("" if name == "seconds" else ", or open")
-    return EncodeError(name, cell, allowed, "", f"line {line}: {name} cannot be {cell!r:.{_SHOWN}}")

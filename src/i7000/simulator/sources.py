@@ -208,7 +208,7 @@ class Recorded:
             raise EncodeError("seconds", self.seconds, "0 or more", "")
         if not all(map(lt, self.seconds, islice(self.seconds, 1, None))):
             raise EncodeError("seconds", self.seconds, "each more than the one before", "")
-        if inf in map(abs, self.values):
+        if not isfinite(sum(self.values)) and inf in map(abs, self.values):
             raise EncodeError("values", self.values, "finite numbers, or nan for an open wire", "")
 
     @property
