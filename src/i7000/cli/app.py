@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -21,12 +21,14 @@ from i7000.cli.records import Record, command_record, line_records
 from i7000.cli.registers import register_record
 from i7000.cli.text import Printer, command_lines, frame_lines, register_lines, request_lines
 from i7000.cli.words import UsageError, type_codes
+from i7000_cli import CLOSED, INTERRUPTED
 
 __all__ = ["app", "run"]
 
 app = App(
     name="i7000",
-    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written.",
+    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written."
+    "\n\nExit codes besides those of each command: 130 after Ctrl-C, 141 if nobody reads the output to its end.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
@@ -319,7 +321,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
 
     Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
 
-    Exit code: 0; 2 for wrong usage, or a file that is damaged.
+    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, or a file that is damaged or cannot be written; 130
+    for Ctrl-C before the simulation has begun.
     """
     from i7000.cli import simulate as simulating  # noqa: PLC0415 - what it needs may not be there
 
@@ -349,12 +352,18 @@ def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and tell the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
+        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
+        return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
-        Printer().error(error)
+        with suppress(OSError, SystemExit):  # The terminal may be gone.
+            Printer().error(error)
         return 2
     except ModuleNotFoundError as missing:
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[simulator]"')
         return 2
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
+    return code

@@ -7,7 +7,7 @@ import asyncio
 import signal
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, suppress
+from contextlib import AsyncExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -166,6 +166,7 @@ def run(simulated: Simulation, printer: Printer) -> int:
 
 async def _run(simulated: Simulation, printer: Printer) -> int:
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed)
+    _end_at_signals(simulator)
     if simulated.memory is not None:
         from i7000.simulator.memory import save  # noqa: PLC0415
 
@@ -175,15 +176,24 @@ async def _run(simulated: Simulation, printer: Printer) -> int:
         printer.error(f"several modules have address {address:02X} and speak {protocol.name}: their answers collide")
     async with AsyncExitStack() as opened:
         places = await _open(simulated, simulator, opened)
-        with suppress(NotImplementedError):  # Windows: Ctrl-C is an exception there.
-            for name in (signal.SIGINT, signal.SIGTERM):  # before anybody reads that it is there, and ends it
-                asyncio.get_running_loop().add_signal_handler(name, simulator.end)
         for place in places:
             printer.out.out(place, highlight=False)
         printer.out.file.flush()
         simulator.observe = _observer(simulated.view, printer, simulator, places, opened)
         await simulator.run()
     return 0
+
+
+def _end_at_signals(simulator: Simulator) -> None:
+    """End the simulation at Ctrl-C, or when it is terminated or its terminal hangs up."""
+    names = [signal.SIGINT, signal.SIGTERM]
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup has it
+        names.append(signal.SIGHUP)
+    try:
+        for name in names:
+            asyncio.get_running_loop().add_signal_handler(name, simulator.end)
+    except NotImplementedError:  # Windows: Ctrl-C is an exception there.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
