@@ -95,7 +95,10 @@ def test_modules_are_there_until_ctrl_c(run: Run) -> None:
 def test_modules_that_would_answer_at_once_are_told(run: Run) -> None:
     def told(*texts: str) -> str:
         models = [word for text in texts for word in ("--model", text)]
-        return simulated(run, *models, "--tcp", "0", meanwhile=lambda: sleep(0.3)).err
+        port = free_port()
+        return simulated(
+            run, *models, "--tcp", str(port), meanwhile=lambda: talk(f"socket://127.0.0.1:{port}", b"$01M\r")
+        ).err
 
     assert told("I-7018", "I-7018,address=01") == (
         "i7000: several modules have address 01 and speak DCON: their answers collide\n"
@@ -189,9 +192,12 @@ def test_a_file_keeps_what_modules_remember(run: Run, tmp_path: Path) -> None:
 
 
 def test_a_file_is_made_before_anything_is_said(run: Run, tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
+    memory, port = tmp_path / "modules.json", free_port()
 
-    simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0", meanwhile=lambda: sleep(0.3))
+    simulated(
+        run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port),
+        meanwhile=lambda: talk(f"socket://127.0.0.1:{port}", b"$01M\r"),
+    )  # fmt: skip
 
     assert [eeprom.model for eeprom in load(memory)] == [Model.M_7019R]
 
@@ -382,7 +388,7 @@ def process(*arguments: str) -> Iterator["subprocess.Popen[str]"]:
             started.kill()
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
     with process("--model", KELVIN, *INPUTS) as started:
         assert started.stdout
@@ -407,6 +413,24 @@ def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals
         rest, errors = started.communicate(timeout=10)
 
     assert (started.returncode, rest, errors) == (0, "", "")
+
+
+def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
+    port = free_port()
+    answers = []
+
+    def meanwhile() -> None:
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
+        os.kill(os.getpid(), signal.SIGHUP)
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
+
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        told = simulated(run, "--model", KELVIN, *INPUTS, "--tcp", str(port), meanwhile=meanwhile)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+    assert (told.code, answers) == (0, [SAID, SAID])
 
 
 def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -164,7 +164,7 @@ def test_what_ends_a_command_has_an_exit_code(
 def test_a_command_without_an_output_writes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdout", None)
 
-    assert app.run(["commands"]) == 0
+    assert program(lambda: app.run(["commands"])) == 0
 
 
 def test_a_terminal_that_is_gone_is_no_other_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -231,22 +231,6 @@ def test_a_live_view_that_is_hung_up_leaves_the_terminal_as_it_was() -> None:
     assert b"\x1b[?1049l" in after
     assert b"\x1b[?25h" in after
     assert b"Traceback" not in after
-
-
-def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up() -> None:
-    ignoring = (
-        "import signal, sys; signal.signal(signal.SIGHUP, signal.SIG_IGN); import i7000_cli; sys.exit(i7000_cli.main())"
-    )
-    with on_a_terminal(sys.executable, "-c", ignoring, *MODELS, "--view", "none") as (started, read):
-        read(b"/dev/")
-        started.send_signal(signal.SIGHUP)
-        with pytest.raises(subprocess.TimeoutExpired):
-            started.wait(1)
-
-        started.send_signal(signal.SIGINT)
-        code = started.wait(20)
-
-    assert code == 0
 
 
 def test_the_exit_codes_are_those_that_the_help_names(capsys: pytest.CaptureFixture[str]) -> None:
