@@ -16,6 +16,7 @@ from i7000.cli.dcon import Known, errata
 from i7000.cli.log import pieces
 from i7000.cli.message import encode, make
 from i7000.cli.records import line_records
+from i7000_cli import CLOSED
 from tests.spec.lint import Record, rows
 from tests.terminal import Run
 from tests.vectors import dcon_vectors, message_of, profile_of
@@ -842,4 +843,4 @@ def test_a_closed_pipe_ends_it_quietly() -> None:
     assert process.stderr is not None
     assert process.stderr.read() == b""
     process.stderr.close()
-    assert process.wait() == 1
+    assert process.wait() == CLOSED

@@ -1,5 +1,6 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
+import errno
 import io
 import os
 import re
@@ -24,7 +25,8 @@ from i7000.cli.outlet import Outlet
 from i7000.cli.simulate import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
-from i7000.simulator.memory import load, save
+from i7000.simulator.memory import held, load, save
+from i7000.simulator.recordings import MOST_BYTES, MOST_ROWS
 from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, Simulator
 from i7000.simulator.tcp import MOST_CONNECTIONS
 from tests.terminal import Run, Told
@@ -56,6 +58,13 @@ def talk(url: str, *frames: bytes) -> list[bytes]:
             opened.write(frame)
             answers.append(opened.read_until(b"\r"))
         return answers
+
+
+def unanswered(port: int, frame: bytes) -> bytes:
+    """Say a DCON frame, and return what comes until the simulator hangs up: nothing, if all is well."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as opened:
+        opened.sendall(frame)
+        return opened.recv(100)
 
 
 def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object] = lambda: None) -> Told:
@@ -217,6 +226,13 @@ def test_faults_are_those_of_the_seed(run: Run) -> None:
     assert answers("--seed", "7") == answers("--seed", "7") != answers()
 
 
+def test_the_help_says_what_a_recording_is_and_how_long_it_may_be(run: Run) -> None:
+    told = " ".join(run("simulate", "--help").out.replace("│", "").split())
+
+    assert all(name in told for name in ("seconds", "cold_junction", "open wire"))
+    assert f"At most {MOST_ROWS:,} rows and {MOST_BYTES // 10**6} MB." in told
+
+
 # --- what is remembered -----------------------------------------------------------------------------------------------
 
 
@@ -279,22 +295,60 @@ def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path)
         talk(f"socket://127.0.0.1:{port}", b"$01M\r")
         memory.unlink()
         os.mkfifo(memory)
-        talk(f"socket://127.0.0.1:{port}", b"~01OABC\r")
+        answers.append(unanswered(port, b"~01OABC\r"))
+
+    answers: list[bytes] = []
+    doing = Thread(target=meanwhile)
+    doing.start()
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
+    doing.join()
+
+    assert answers == [b""]
+    assert told.code == 2
+    assert "is a device or pipe" in told.err
+
+
+def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "nowhere" / "modules.json"
+
+    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
+
+    assert (told.code, told.out) == (2, "")
+    assert told.err == f"i7000: [Errno 2] No such file or directory: '{memory}'\n"
+
+
+def test_a_file_that_another_simulator_uses_is_refused(run: Run, tmp_path: Path) -> None:
+    memory = tmp_path / "modules.json"
+
+    with held(memory):
+        told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
+
+    assert (told.code, told.out) == (2, "")
+    assert told.err.startswith(f"i7000: {memory}: the file itself: is used by another simulator")
+
+
+def test_what_a_full_disk_does_not_store_is_not_acknowledged(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    memory, port = tmp_path / "modules.json", free_port()
+    answers = []
+
+    def full(_: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    def meanwhile() -> None:
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"$01M\r"))
+        monkeypatch.setattr(os, "fsync", full)
+        answers.append(unanswered(port, b"~01OABC\r"))
 
     doing = Thread(target=meanwhile)
     doing.start()
     told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
     doing.join()
 
-    assert told.code == 2
-    assert "is a device or pipe" in told.err
-
-
-def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(tmp_path / "nowhere" / "modules.json"))
-
-    assert told.code == 2
-    assert "nowhere" in told.err
+    assert answers == [b"!017019R\r", b""]
+    assert (told.code, told.err) == (2, f"i7000: [Errno 28] No space left on device: '{memory}'\n")
+    assert [eeprom.name for eeprom in load(memory)] == ["7019R"]
 
 
 # --- wrong usage ------------------------------------------------------------------------------------------------------
@@ -398,7 +452,7 @@ def process(*arguments: str, main: str = MAIN) -> Iterator["subprocess.Popen[str
             started.kill()
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
     with process("--model", KELVIN, *INPUTS) as started:
         assert started.stdout
@@ -423,6 +477,24 @@ def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals
         rest, errors = started.communicate(timeout=10)
 
     assert (started.returncode, rest, errors) == (0, "", "")
+
+
+def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
+    port = free_port()
+    answers = []
+
+    def meanwhile() -> None:
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
+        os.kill(os.getpid(), signal.SIGHUP)
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
+
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        told = simulated(run, "--model", KELVIN, *INPUTS, "--tcp", str(port), meanwhile=meanwhile)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+    assert (told.code, answers) == (0, [SAID, SAID])
 
 
 def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too() -> None:

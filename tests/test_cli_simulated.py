@@ -1,17 +1,21 @@
 """How simulated modules, and what is connected to them, are said on the command line."""
 
 from collections.abc import Callable
+from math import nan
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from i7000 import BaudRate, CharacterFormat, DataFormat, Filter, LineSettings, ModbusDataFormat, Model, TypeCode, Unit
+from i7000.cli import simulated
 from i7000.cli.simulated import read_module, read_signals
 from i7000.cli.words import UsageError
 from i7000.device import Eeprom, Signal, factory, power_on
 from i7000.settings import Protocol
+from i7000.simulator.recordings import read_recording
 from i7000.simulator.sources import (
     OPEN,
     Fixed,
@@ -388,8 +392,8 @@ def test_a_recording_plays_the_columns_of_the_channels_named(recording: Path) ->
     found = signals(f"0-1=csv:{recording}")
 
     assert (
-        Recorded((0.0, 60.0), (Signal(1.5, Unit.VOLT), None)),
-        Recorded((0.0, 60.0), (Signal(2.5, Unit.VOLT), Signal(3.5, Unit.VOLT))),
+        Recorded((0.0, 60.0), (1.5, nan), Unit.VOLT),
+        Recorded((0.0, 60.0), (2.5, 3.5), Unit.VOLT),
     ) == found.channels[:2]
     assert default_sources(VOLTS).channels[2:] == found.channels[2:]
     assert found.at(60).cold_junction == 25.0
@@ -403,24 +407,32 @@ def test_a_recording_has_the_units_of_the_types(recording: Path) -> None:
     assert Signal(1.5, Unit.CELSIUS) == signals(f"0=CSV:{recording}", eeprom=DEGREES).at(0).channel(0)
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"", "line 1: the columns are none: one of them seconds"),
-        (b"seconds,1\n0,1\n", "line 1: the columns are seconds, 1: one of them 0"),
-        (b"seconds,0\n", "line 1: no rows follow"),
-        (b"seconds,0\n0,1\n1,x\n", "line 3: 0 cannot be 'x': a finite number, or open"),
-        (b"seconds,0\n1,1\n1,1\n", "line 3: seconds cannot be 1.0: more than the 1 before"),
-        (b"seconds,0\n0,\xff\n", "'utf-8' codec can't decode byte 0xff"),
-    ],
-)
-def test_a_recording_that_cannot_be_read_is_refused_with_file_and_line(
-    tmp_path: Path, content: bytes, message: str
+def test_a_recording_is_read_once_for_modules_of_the_same_types(
+    recording: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = tmp_path / "recording.csv"
-    file.write_bytes(content)
+    read = Mock(wraps=read_recording)
+    monkeypatch.setattr(simulated, "read_recording", read)
 
-    assert refusal_of_signals(f"0=csv:{file}").startswith(f"'0=csv:{file}': {file}: {message}")
+    found = read_signals([f"0=csv:{recording}"], [VOLTS, VOLTS, DEGREES])
+
+    assert read.call_count == 2
+    assert found[0].channels[0] is found[1].channels[0] != found[2].channels[0]
+
+
+def test_a_recording_that_cannot_be_read_is_refused_with_file_and_line(tmp_path: Path) -> None:
+    file = tmp_path / "recording.csv"
+    file.write_text("seconds,0\n0,1\n1,x\n")
+
+    message = refusal_of_signals(f"0=csv:{file}")
+
+    assert message == f"'0=csv:{file}': {file}: line 3: 0 cannot be 'x': a number as 12.5 or -1e-3, or open"
+
+
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/full", "/dev/stdin"])
+def test_a_device_is_no_recording(device: str) -> None:
+    assert refusal_of_signals(f"0=csv:{device}") == (
+        f"'0=csv:{device}': {device} is a device or pipe; allowed: a regular file"
+    )
 
 
 def test_a_directory_is_no_recording(tmp_path: Path) -> None:

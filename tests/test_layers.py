@@ -31,7 +31,7 @@ EXTRAS = {
     "strategies": {"hypothesis"},
     "cli": {"cyclopts", "rich"},
     "examples": {"serial"},
-    "simulator": {"cattrs", "serial"},
+    "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
     "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",

@@ -1,7 +1,5 @@
 import json
-import os
 import re
-import stat
 from collections.abc import Callable
 from pathlib import Path
 from time import process_time
@@ -12,92 +10,12 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, TypeCode
-from i7000.device import CAPACITY, Eeprom, Log, LogCommand, Record, State, factory
-from i7000.device.state import profile_of
+from i7000 import Model, TypeCode
+from i7000.device import CAPACITY, Eeprom, Log, Record, State, factory
 from i7000.errors import I7000Error
 from i7000.simulator.memory import MemoryFileError, load, save
-from i7000.strategies import firmwares, line_settings, report_settings
 from i7000.strategies.device import states
-from i7000.strategies.vocabulary import supported_types
-
-# --- what modules can remember ----------------------------------------------------------------------------------------
-
-LONG = st.integers(0, 0xFFFFFFFF)
-MOMENTS = st.floats(-1e12, 1e12)
-
-
-def dates() -> st.SearchStrategy[tuple[int, int, int, int, int, int]]:
-    return st.tuples(
-        st.integers(2000, 2159), st.integers(1, 12), st.integers(1, 31),
-        st.integers(0, 23), st.integers(0, 59), st.integers(0, 59),
-    )  # fmt: skip
-
-
-def logs() -> st.SearchStrategy[Log]:
-    records = st.builds(Record, LONG, st.tuples(*[st.integers(0, 0xFFFF)] * 16), LONG)
-    return st.just(Log()) | st.builds(
-        Log,
-        clock_offset=MOMENTS,
-        command=st.sampled_from(LogCommand),
-        overwrite=st.booleans(),
-        period=st.tuples(st.integers(0, 24), st.integers(0, 59), st.integers(0, 59)),
-        start=dates(),
-        end=dates(),
-        read_index=LONG,
-        last_index=LONG,
-        records=st.lists(records, max_size=3).map(tuple),
-        next_at=MOMENTS,
-    )
-
-
-@st.composite
-def eeproms(draw: st.DrawFn) -> Eeprom:
-    made = factory(draw(st.sampled_from(Model)), draw(st.none() | firmwares()))
-    profile = profile_of(made)
-    inputs = len(made.type_codes)
-    supported = st.sampled_from(supported_types(profile))
-    types = st.tuples(*[supported] * inputs) if profile.individually_configurable else supported.map(lambda it: (it,))
-    codes = draw(types)
-    has_modbus = Protocol.MODBUS_RTU in made.model.protocols
-    return evolve(
-        made,
-        type_codes=codes * (inputs // len(codes)),
-        report_settings=draw(report_settings(profile)),
-        name=draw(st.from_regex(r"[0-9A-Za-z ._-]{1,6}", fullmatch=True)),
-        protocol=draw(st.sampled_from(sorted(made.model.protocols))),
-        channel_mask=draw(st.integers(0, (1 << inputs) - 1)),
-        channel_offsets=draw(st.tuples(*[st.integers(-128, 127)] * inputs)),
-        channel_cjc_offsets=draw(st.tuples(*[st.integers(-0x1000, 0x1000)] * inputs)),
-        open_wire_detection=draw(st.booleans()),
-        address=draw(st.integers(0, 0xFF)),
-        line_settings=draw(line_settings(profile)),
-        single_ended=draw(st.booleans()) and "2.43" not in profile.refused,
-        modbus_data_format=draw(st.sampled_from(ModbusDataFormat)) if has_modbus else ModbusDataFormat.HEX,
-        cjc_offset=draw(st.integers(-0x1000, 0x1000)),
-        cjc_enabled=draw(st.booleans()),
-        host_watchdog_enabled=draw(st.booleans()),
-        host_watchdog_timeout=draw(st.integers(0, 0xFF)),
-        host_watchdog_timed_out=draw(st.booleans()),
-        host_watchdog_timeouts=draw(st.integers(0, 0xFFFF)),
-        host_watchdog_mode=draw(st.booleans()),
-        response_delay=draw(st.integers(0, 30)),
-        sampling_rate_8_hz=draw(st.booleans()),
-        big_endian=draw(st.booleans()),
-        log=draw(logs()),
-    )
-
-
-RECORD = Record(1, tuple(range(16)), 946684801)
-MODULES = (
-    factory(Model.M_7019R, Firmware("B3.7")),
-    evolve(
-        factory(Model.M_7017mC_16),
-        address=0x1F,
-        line_settings=LineSettings(character_format=CharacterFormat.E81),
-        log=Log(command=LogCommand.PERIOD, period=(0, 0, 10), last_index=1, records=(RECORD,)),
-    ),
-)  # fmt: skip
+from tests.simulator.eeproms import MODULES, eeproms
 
 
 @pytest.fixture
@@ -285,7 +203,44 @@ def test_any_json_in_the_place_of_a_value_is_refused_or_the_same(
     assert loaded == MODULES
 
 
-@pytest.mark.parametrize("keep", [0, 1, 100, 500, -3])
+def test_an_empty_file_is_refused(path: Path) -> None:
+    error = refusal(path, "")
+
+    assert (error.place, error.reason, error.allowed) == ("the file itself", "is empty", "a file with contents")
+
+
+def test_a_file_of_100_megabytes_is_refused_before_it_is_read(path: Path) -> None:
+    with path.open("wb") as file:
+        file.truncate(100_000_000)
+
+    with pytest.raises(MemoryFileError) as refused:
+        load(path)
+
+    assert str(refused.value) == f"{path}: the file itself: has 100 MB; allowed: 40 MB"
+
+
+@pytest.mark.parametrize(
+    ("digits", "shown"), [("9" * 20, "9" * 20), ("-" + "9" * 19, "-" + "9" * 19), ("1" * 21, "a number of 21 digits")]
+)
+def test_a_number_of_more_than_20_digits_is_told_by_its_length(path: Path, digits: str, shown: str) -> None:
+    error = refusal(path, saved(path).replace('"cjc_offset": 0', f'"cjc_offset": {digits}', 1))
+
+    assert error.place == "modules[0].cjc_offset"
+    assert error.reason == f"cannot be {shown}"
+
+
+def test_a_key_that_is_there_twice_is_found_in_linear_time(path: Path) -> None:
+    keys = ", ".join(f'"{number}": 0' for number in range(100_000))
+    path.write_text(f'{{{keys}, "99999": 0}}')
+    began = process_time()
+
+    with pytest.raises(MemoryFileError, match="cannot be an object that has '99999' twice"):
+        load(path)
+
+    assert process_time() - began < 2
+
+
+@pytest.mark.parametrize("keep", [1, 100, 500, -3])
 def test_a_truncated_file_is_refused(path: Path, keep: int) -> None:
     error = refusal(path, saved(path)[:keep])
 
@@ -466,130 +421,3 @@ def test_a_reason_is_told_where_there_is_one(path: Path) -> None:
 def test_a_file_that_is_not_there_is_told_as_such(path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         load(path)
-
-
-# --- how it is written ------------------------------------------------------------------------------------------------
-
-
-def test_a_file_keeps_its_mode(path: Path) -> None:
-    save(path, [])
-    path.chmod(0o640)
-
-    save(path, MODULES)
-
-    assert stat.S_IMODE(path.stat().st_mode) == 0o640
-
-
-def test_a_new_file_has_the_mode_of_new_files(path: Path) -> None:
-    other = path.with_name("other")
-    other.touch()
-
-    save(path, MODULES)
-
-    assert path.stat().st_mode == other.stat().st_mode
-
-
-def test_what_a_link_names_is_replaced_and_not_the_link(path: Path) -> None:
-    target = path.parent / "elsewhere" / "real.json"
-    target.parent.mkdir()
-    path.symlink_to(target)
-
-    save(path, MODULES)
-    save(path, MODULES[:1])
-
-    assert path.is_symlink()
-    assert load(target) == MODULES[:1]
-
-
-@pytest.mark.parametrize(("place", "call"), [(os, "fsync"), (Path, "replace")])
-def test_a_failure_leaves_the_old_file_and_nothing_else(
-    path: Path, monkeypatch: pytest.MonkeyPatch, place: object, call: str
-) -> None:
-    save(path, MODULES)
-    before = path.read_bytes()
-
-    def fail(*_: object) -> None:
-        raise OSError("disk full")
-
-    monkeypatch.setattr(place, call, fail)
-    with pytest.raises(OSError, match="disk full"):
-        save(path, [])
-
-    assert path.read_bytes() == before
-    assert list(path.parent.iterdir()) == [path]
-
-
-@pytest.mark.parametrize(
-    ("wrong", "place"),
-    [
-        (Log(clock_offset=float("inf")), "clock_offset"),
-        (Log(next_at=float("nan")), "next_at"),
-        (Log(period=(0, 60, 0)), "period"),
-        (Log(records=(RECORD,) * (CAPACITY + 1)), "records"),
-        (Log(records=(Record(1, (0,) * 15, 0),)), "records[0].words"),
-    ],
-    ids=["infinite", "not a number", "no period", "too many", "too few"],
-)
-def test_what_could_not_be_loaded_is_not_saved(path: Path, wrong: Log, place: str) -> None:
-    save(path, MODULES)
-
-    with pytest.raises(MemoryFileError) as caught:
-        save(path, [MODULES[0], evolve(MODULES[1], log=wrong)])
-
-    assert caught.value.place == f"modules[1].log.{place}"
-    assert load(path) == MODULES
-    assert list(path.parent.iterdir()) == [path]
-
-
-def test_the_new_file_is_on_the_disk_before_it_takes_the_place_of_the_old(
-    path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    calls = []
-    fsync, replace = os.fsync, Path.replace
-
-    def synced(descriptor: int) -> None:
-        calls.append("directory" if stat.S_ISDIR(os.fstat(descriptor).st_mode) else "file")
-        fsync(descriptor)
-
-    def replaced(self: Path, target: Path) -> Path:
-        calls.append("replace")
-        return replace(self, target)
-
-    monkeypatch.setattr(os, "fsync", synced)
-    monkeypatch.setattr(Path, "replace", replaced)
-    save(path, MODULES)
-
-    assert calls == ["file", "replace", "directory"]
-
-
-def test_a_directory_that_cannot_be_opened_is_no_failure(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object) -> int:
-        raise PermissionError("no directories")
-
-    monkeypatch.setattr(os, "open", refuse)
-    save(path, MODULES)
-
-    assert load(path) == MODULES
-
-
-@pytest.mark.parametrize("call", [load, lambda path: save(path, MODULES)], ids=["load", "save"])
-def test_a_pipe_is_no_memory(path: Path, call: Callable[[Path], object]) -> None:
-    os.mkfifo(path)
-
-    with pytest.raises(MemoryFileError, match="a device or pipe; allowed: a regular file"):
-        call(path)
-
-    assert stat.S_ISFIFO(path.stat().st_mode)
-
-
-@pytest.mark.parametrize("call", [load, lambda path: save(path, MODULES)], ids=["load", "save"])
-def test_a_directory_is_no_memory(path: Path, call: Callable[[Path], object]) -> None:
-    path.mkdir()
-
-    with pytest.raises(IsADirectoryError):
-        call(path)
-
-
-def test_a_directory_that_is_not_there_is_not_made(path: Path) -> None:
-    with pytest.raises(FileNotFoundError):
-        save(path.parent / "nowhere" / "bus.json", MODULES)

@@ -291,29 +291,48 @@ def test_time_passes_for_modules_that_nobody_talks_to() -> None:
     assert [eeproms[0].host_watchdog_timeouts for eeproms in stored] == [0, 1]
 
 
-def test_a_memory_that_cannot_be_written_ends_the_simulation() -> None:
+@pytest.mark.parametrize(
+    "error",
+    [
+        OSError(errno.ENOSPC, "no space", "modules.json"),
+        MemoryFileError("modules.json", "the file itself", "is a device or pipe", "a regular file"),
+    ],
+    ids=["disk full", "no file"],
+)
+def test_what_cannot_be_stored_is_not_acknowledged_and_ends_the_simulation(error: Exception) -> None:
+    answers: list[bytes] = []
+
     def store(_: Sequence[Eeprom]) -> None:
-        raise OSError(errno.ENOSPC, "no space")
+        raise error
 
-    def rename_twice() -> None:
-        with running(listen, I_7018, store=store) as here, port(here, "socket") as opened:
-            assert ask(opened, b"~01OABC\r", 4) == b"!01\r"
-            assert ask(opened, b"~01OABD\r", 4) == b"!01\r"
+    async def rename() -> None:
+        simulator = Simulator([I_7018], store=store)
+        host = Host(simulator, "host", answers.append)
+        host.receive(b"$01M\r~01OABC\r")
+        host.receive(b"~01OABD\r$01M\r")
+        await simulator.run()
 
-    with pytest.raises(OSError, match="no space"):
-        rename_twice()
+    with pytest.raises(type(error), match=r"modules\.json"):
+        asyncio.run(rename())
+
+    assert answers == []
 
 
-def test_a_memory_that_refuses_what_it_is_to_store_ends_the_simulation() -> None:
-    def store(_: Sequence[Eeprom]) -> None:
-        raise MemoryFileError("modules.json", "the file itself", "is a device or pipe", "a regular file")
+def test_nothing_is_acknowledged_and_nothing_stored_after_the_end() -> None:
+    answers: list[bytes] = []
+    stored: list[Sequence[Eeprom]] = []
 
-    def rename() -> None:
-        with running(listen, I_7018, store=store) as here, port(here, "socket") as opened:
-            assert ask(opened, b"~01OABC\r", 4) == b"!01\r"
+    async def rename() -> None:
+        simulator = Simulator([I_7018], store=stored.append)
+        host = Host(simulator, "host", answers.append)
+        simulator.end()
+        host.receive(b"~01OABC\r")
+        host.receive(b"$01M\r")
+        await simulator.run()
 
-    with pytest.raises(MemoryFileError, match="device or pipe"):
-        rename()
+    asyncio.run(rename())
+
+    assert (answers, stored) == ([b"!017018\r"], [])
 
 
 def test_a_power_cycle_leaves_what_is_stored() -> None:

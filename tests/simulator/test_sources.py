@@ -19,10 +19,7 @@ from i7000.simulator.sources import (
     Source,
     Sources,
     default_sources,
-    read_recording,
 )
-
-VOLTS = {"0": Unit.VOLT}
 
 
 def volts(value: float) -> Signal:
@@ -46,8 +43,8 @@ SEEDS = st.integers() | st.text()
 @st.composite
 def recordings(draw: st.DrawFn, units: st.SearchStrategy[Unit]) -> Recorded:
     seconds = sorted(draw(st.sets(TIMES, min_size=1, max_size=5)))
-    signals = st.none() | st.builds(Signal, NUMBERS, units)
-    return Recorded(tuple(seconds), tuple(draw(signals) for _ in seconds))
+    values = NUMBERS | st.just(nan)
+    return Recorded(seconds, [draw(values) for _ in seconds], draw(units))
 
 
 def ramp(one: float, other: float, period: float, unit: Unit) -> Ramp:
@@ -177,9 +174,32 @@ def test_noise_is_cut_off_at_four_deviations() -> None:
 
 
 def test_a_row_holds_until_the_next_and_the_last_for_ever() -> None:
-    recorded = Recorded((1.0, 2.5), (volts(1), volts(2)))
+    recorded = Recorded((1.0, 2.5), (1, 2), Unit.VOLT)
 
     assert values(recorded, 0, 10, 24, 25, 10**12) == [1, 1, 1, 2, 2]
+
+
+def test_recordings_are_equal_if_their_rows_and_units_are() -> None:
+    recorded = Recorded((0.0, 1.0), (1, nan), Unit.VOLT)
+
+    assert recorded == Recorded((0, 1), (1.0, nan), Unit.VOLT)
+    assert hash(recorded) == hash(Recorded((0, 1), (1.0, nan), Unit.VOLT))
+    assert recorded != Recorded((0.0, 1.0), (1, 2), Unit.VOLT)
+    assert recorded != Recorded((0.0, 1.0), (1, nan), Unit.MILLIVOLT)
+
+
+@pytest.mark.parametrize(
+    ("values", "extremes"),
+    [
+        ((3, 1, 2), (volts(1), volts(3))),
+        ((3, nan, 2), (volts(2), volts(3), OPEN_WIRE)),
+        ((nan, nan, nan), (OPEN_WIRE,)),
+    ],
+)
+def test_the_extremes_of_a_recording_are_the_lowest_the_highest_and_an_open_wire(
+    values: tuple[float, ...], extremes: tuple[Signal | None, ...]
+) -> None:
+    assert extremes == Recorded((0, 1, 2), values, Unit.VOLT).extremes
 
 
 @pytest.mark.parametrize(
@@ -197,11 +217,14 @@ def test_a_row_holds_until_the_next_and_the_last_for_ever() -> None:
         (lambda: Noise(nan, 1, Unit.VOLT), "mean"),
         (lambda: Noise(0, -0.1, Unit.VOLT), "deviation"),
         (lambda: Noise(0, 1e308, Unit.VOLT), "value"),
-        (lambda: Recorded((), ()), "signals"),
-        (lambda: Recorded((0.0,), (OPEN_WIRE, OPEN_WIRE)), "signals"),
-        (lambda: Recorded((-1.0,), (OPEN_WIRE,)), "seconds"),
-        (lambda: Recorded((0.0, inf), (OPEN_WIRE, OPEN_WIRE)), "seconds"),
-        (lambda: Recorded((1.0, 1.0), (OPEN_WIRE, OPEN_WIRE)), "seconds"),
+        (lambda: Recorded((), (), Unit.VOLT), "values"),
+        (lambda: Recorded((0.0,), (nan, nan), Unit.VOLT), "values"),
+        (lambda: Recorded((0.0, 1.0), (nan, -inf), Unit.VOLT), "values"),
+        (lambda: Recorded((-1.0,), (nan,), Unit.VOLT), "seconds"),
+        (lambda: Recorded((nan,), (nan,), Unit.VOLT), "seconds"),
+        (lambda: Recorded((0.0, inf), (nan, nan), Unit.VOLT), "seconds"),
+        (lambda: Recorded((1.0, 1.0), (nan, nan), Unit.VOLT), "seconds"),
+        (lambda: Recorded((0.0, nan, 1.0), (nan, nan, nan), Unit.VOLT), "seconds"),
     ],
 )
 def test_what_could_give_no_signal_is_refused_when_it_is_made(make: object, field: str) -> None:
@@ -232,7 +255,7 @@ def test_equal_sources_have_the_same_signals() -> None:
 
 
 def test_signals_stay_the_same_object_while_a_row_holds() -> None:
-    module = Sources((Recorded((0.0, 60.0), (volts(1), volts(2))),))
+    module = Sources((Recorded((0.0, 60.0), (1, 2), Unit.VOLT),))
 
     assert module.at(0) is module.at(59.9)
     assert module.at(59.9) is not module.at(60)
@@ -253,7 +276,9 @@ def test_the_cold_junction_changes_too() -> None:
         Ramp(-201, 0, 60, Unit.CELSIUS),
         Sine(150, 60, 60, Unit.CELSIUS),
         Noise(190, 3, Unit.CELSIUS),
-        Recorded((0.0, 1.0), (Signal(25, Unit.CELSIUS), OPEN_WIRE)),
+        Recorded((0.0, 1.0), (25, nan), Unit.CELSIUS),
+        Recorded((0.0, 1.0), (25, 201), Unit.CELSIUS),
+        Recorded((0.0,), (25,), Unit.VOLT),
     ],
 )
 def test_a_cold_junction_that_no_module_has_is_refused(source: Source) -> None:
@@ -288,58 +313,3 @@ def test_the_values_are_those_of_the_types_of_the_channels() -> None:
     eeprom = attrs.evolve(factory(Model.M_7019R), type_codes=(TypeCode.K, *[TypeCode.V_10] * 7))
 
     assert default_sources(eeprom).at(0).channels[:2] == (Signal(152.4, Unit.CELSIUS), Signal(2.222, Unit.VOLT))
-
-
-# --- recordings -------------------------------------------------------------------------------------------------------
-
-
-def test_a_recording_has_a_source_for_each_column() -> None:
-    lines = ["seconds,0,cold_junction\n", "0,1.5,25\n", "\n", " 2.5 , open , 26 \n"]
-
-    found = read_recording(lines, {"0": Unit.VOLT, "cold_junction": Unit.CELSIUS})
-
-    assert found == {
-        "0": Recorded((0.0, 2.5), (volts(1.5), OPEN_WIRE)),
-        "cold_junction": Recorded((0.0, 2.5), (Signal(25, Unit.CELSIUS), Signal(26, Unit.CELSIUS))),
-    }
-
-
-def test_columns_that_are_not_asked_for_may_hold_anything() -> None:
-    found = read_recording(["seconds,note,0,note", "0,door open,1.5,", "1,,2.5"], VOLTS)
-
-    assert found == {"0": Recorded((0.0, 1.0), (volts(1.5), volts(2.5)))}
-
-
-@pytest.mark.parametrize(
-    ("lines", "message"),
-    [
-        ([], "line 1: the columns are none: one of them seconds"),
-        (["", "0,1"], "line 2: the columns are 0, 1: one of them seconds"),
-        (["seconds,1", "0,1"], "line 1: the columns are seconds, 1: one of them 0"),
-        (["seconds,0,0", "0,1,2"], "line 1: the columns are seconds, 0, 0: one of them 0"),
-        (["seconds,0"], "line 1: no rows follow: one at least"),
-        (["seconds,0", "x,1"], "line 2: seconds cannot be 'x': a finite number"),
-        (["seconds,0", "-1,1"], "line 2: seconds cannot be -1.0: 0 or more"),
-        (["seconds,0", "0,1", "", "0,1"], "line 4: seconds cannot be 0.0: more than the 0 before"),
-        (["seconds,0", "0,"], "line 2: 0 cannot be '': a finite number, or open"),
-        (["seconds,0", "0"], "line 2: 0 cannot be '': a finite number, or open"),
-        (["seconds,0", "0,nan"], "line 2: 0 cannot be 'nan': a finite number, or open"),
-        (["seconds,0", '0,"1'], "line 2: unexpected end of data: values with commas between"),
-    ],
-)
-def test_a_recording_that_cannot_be_read_names_line_and_reason(lines: list[str], message: str) -> None:
-    with pytest.raises(EncodeError) as refused:
-        read_recording(lines, VOLTS)
-
-    assert message == str(refused.value)
-
-
-@given(st.lists(st.text(alphabet="0123456789.,-eopn\"' \n") | st.text(), max_size=8))
-def test_any_lines_are_a_recording_or_refused(lines: list[str]) -> None:
-    refusal = "line"
-    try:
-        read_recording(["seconds,0", *lines], VOLTS)
-    except EncodeError as refused:
-        refusal = str(refused)
-
-    assert refusal.startswith("line")

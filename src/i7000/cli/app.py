@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -21,12 +21,14 @@ from i7000.cli.records import Record, command_record, line_records
 from i7000.cli.registers import register_record
 from i7000.cli.text import Printer, command_lines, frame_lines, register_lines, request_lines
 from i7000.cli.words import UsageError, type_codes
+from i7000_cli import CLOSED, INTERRUPTED
 
 __all__ = ["app", "run"]
 
 app = App(
     name="i7000",
-    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written.",
+    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written."
+    "\n\nExit codes besides those of each command: 130 after Ctrl-C, 141 if nobody reads the output to its end.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
@@ -309,17 +311,22 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     * Signals: `0=1.5V`, `all=25degC`, `02:0-3=sine:20:5:60`, `4=ramp:4mA:20mA:10`, `5=noise:100:0.5`, `6=open`,
       `7=csv:FILE`, `cjc=31.5`; units are those of the types unless given, times seconds. Unless given, each channel has
       another value within its range.
+    * A CSV file starts with a line of column names: `seconds`, the number of each channel (`0,1,2`), and
+      `cold_junction` for `cjc`; others are ignored. Each further line has one value for every column, decimals with a
+      point, and `open` for an open wire. The seconds rise; a row holds until the next one. At most 2,000,000 rows and
+      200 MB.
     * Faults: `echo`, `lumps` (answers come every 16 ms), `drop=P`, `flip=P` (of a byte), `noise=P`, `late=P[:SECONDS]`
       (of an answer), P being a probability.
     * The file of `--eeprom` is made if it is not there; if it is, what it has stored is what the modules remember, and
-      `--model` may be left out.
+      `--model` may be left out. One simulator at a time uses the file.
 
     Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
     `--tcp` and `--rfc2217` serve 64 hosts each at a time. A host that does not read loses answers, and so does one for
     which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that nobody reads is dropped, and
     counted: `n lines not shown`.
 
-    Exit code: 0; 2 for wrong usage, or a file that is damaged.
+    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, or a file that is damaged or cannot be written; 130
+    for Ctrl-C before the simulation has begun.
     """
     from i7000.cli import simulate as simulating  # noqa: PLC0415 - what it needs may not be there
 
@@ -329,16 +336,17 @@ def simulate(  # noqa: PLR0913 - each of them is an option
         for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
         if text is not None
     ]
-    simulated = simulating.Simulation(
-        simulating.read_modules(model, signal, seed=seed, memory=eeprom),
-        simulating.read_faults(fault),
-        seed,
-        eeprom,
-        pty or not places,
-        tuple(places),
-        view or ("live" if printer.out.is_terminal else "none"),
-    )
-    return simulating.run(simulated, printer)
+    with simulating.held(eeprom):
+        simulated = simulating.Simulation(
+            simulating.read_modules(model, signal, seed=seed, memory=eeprom),
+            simulating.read_faults(fault),
+            seed,
+            eeprom,
+            pty or not places,
+            tuple(places),
+            view or ("live" if printer.out.is_terminal else "none"),
+        )
+        return simulating.run(simulated, printer)
 
 
 # --- run --------------------------------------------------------------------------------------------------------------
@@ -348,12 +356,18 @@ def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and tell the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
+        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
+        return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
-        Printer().error(error)
+        with suppress(OSError, SystemExit):  # The terminal may be gone.
+            Printer().error(error)
         return 2
     except ModuleNotFoundError as missing:
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[simulator]"')
         return 2
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
+    return code

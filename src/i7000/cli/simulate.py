@@ -8,7 +8,7 @@ import logging
 import signal
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, suppress
+from contextlib import AsyncExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import IO, Any, cast
@@ -29,7 +29,7 @@ from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.tcp import LOOPBACK, Connection, listen
 
-__all__ = ["Place", "Simulation", "read_faults", "read_modules", "read_place", "run"]
+__all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_place", "run"]
 
 
 @frozen
@@ -53,6 +53,25 @@ class Simulation:
     pty: bool
     places: tuple[Place, ...]
     view: str
+
+
+@contextmanager
+def held(memory: Path | None) -> Iterator[None]:
+    """Keep other simulators from the file in which the modules remember, if there is one.
+
+    Errors: `UsageError` if another one uses it; that or `OSError` if it cannot be written.
+    """
+    if memory is None:
+        yield
+        return
+    from i7000.simulator.memory import MemoryFileError  # noqa: PLC0415
+    from i7000.simulator.memory import held as held_file  # noqa: PLC0415
+
+    try:
+        with held_file(memory):
+            yield
+    except MemoryFileError as error:
+        raise UsageError(error) from None
 
 
 def read_modules(
@@ -170,6 +189,7 @@ def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
 
 async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
+    _end_at_signals(simulator)
     if simulated.memory is not None:
         from i7000.simulator.memory import save  # noqa: PLC0415
 
@@ -179,9 +199,6 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
         printer.error(f"several modules have address {address:02X} and speak {protocol.name}: their answers collide")
     async with AsyncExitStack() as opened:
         places = await _open(simulated, simulator, opened)
-        with suppress(NotImplementedError):  # Windows: Ctrl-C is an exception there.
-            for name in (signal.SIGINT, signal.SIGTERM):  # before anybody reads that it is there, and ends it
-                asyncio.get_running_loop().add_signal_handler(name, simulator.end)
         for place in places:
             printer.out.out(place, highlight=False)
         printer.out.file.flush()
@@ -193,6 +210,18 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
             simulator.observe = opened.enter_context(view).show
         await simulator.run()
     return 0
+
+
+def _end_at_signals(simulator: Simulator) -> None:
+    """End the simulation at Ctrl-C, or when it is terminated or its terminal hangs up."""
+    names = [signal.SIGINT, signal.SIGTERM]
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup has it
+        names.append(signal.SIGHUP)
+    try:
+        for name in names:
+            asyncio.get_running_loop().add_signal_handler(name, simulator.end)
+    except NotImplementedError:  # Windows: Ctrl-C is an exception there.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:

@@ -6,7 +6,7 @@ Laws: any text gives a value or a `UsageError` that names what was written and w
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
+from functools import cache
 from typing import Any
 
 from attrs import evolve, frozen
@@ -39,6 +39,8 @@ from i7000.cli.words import (
     type_codes,
 )
 from i7000.device import Eeprom, Signal, factory, power_on
+from i7000.simulator.files import UnsuitableFileError
+from i7000.simulator.recordings import read_recording
 from i7000.simulator.sources import (
     COLD_JUNCTION,
     OPEN,
@@ -49,7 +51,6 @@ from i7000.simulator.sources import (
     Source,
     Sources,
     default_sources,
-    read_recording,
 )
 
 __all__ = ["read_module", "read_signals"]
@@ -309,21 +310,18 @@ def _maker(text: str) -> Callable[[dict[str, Unit], str], dict[str, Source]]:
     kind, _, file = text.partition(":")
     if kind.lower() != "csv" or not file:
         return lambda units, seed: {name: _source(text, unit, f"{seed}.{name}") for name, unit in units.items()}
-    lines = _lines(file)
-
-    def recorded(units: dict[str, Unit], seed: str) -> dict[str, Source]:  # noqa: ARG001
-        with _named(file):
-            return dict(read_recording(lines, units))
-
-    return recorded
+    read = cache(_recording)  # once for all modules of the same types
+    return lambda units, seed: read(file, tuple(units.items()))  # noqa: ARG005
 
 
-def _lines(file: str) -> list[str]:
+def _recording(file: str, units: Iterable[tuple[str, Unit]]) -> dict[str, Source]:
     try:
-        return Path(file).read_text(encoding="utf-8-sig").split("\n")
+        return {**read_recording(file, dict(units))}
+    except UnsuitableFileError as error:
+        raise UsageError(error) from None
     except OSError as error:
         raise UsageError(f"{file}: {error.strerror}") from None
-    except ValueError as error:  # no text in UTF-8, or no name of a file
+    except ValueError as error:  # what is wrong in it, or no name of a file
         raise UsageError(f"{file}: {error}") from None
 
 

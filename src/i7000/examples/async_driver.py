@@ -7,7 +7,7 @@ from typing import Any, overload
 import serial
 
 from i7000 import Profile, dcon, modbus
-from i7000.examples.task import RD, RM, open_port, read_task
+from i7000.examples.task import RD, RM, open_port, program, read_task
 from i7000.host import AnyCommand, Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
 
 __all__ = ["Driver", "main"]
@@ -76,4 +76,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program(main))

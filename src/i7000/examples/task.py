@@ -9,8 +9,9 @@ from attrs import evolve, frozen
 
 from i7000 import BaudRate, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
 from i7000.host import Answered, Bus, Outcome
+from i7000_cli import program
 
-__all__ = ["RD", "RM", "Task", "open_port", "read_task"]
+__all__ = ["RD", "RM", "Task", "open_port", "program", "read_task"]
 
 RD = TypeVar("RD", bound=dcon.Response)
 RM = TypeVar("RM", bound=modbus.Response)

@@ -7,30 +7,41 @@ counts them. A log that is as it comes from the factory is ``null``.
 Laws: a file is read as it is meant or not at all: nothing is left out, added, converted or guessed. `crc` finds a digit
 that turned into another; it goes by the values, not by how they are laid out. Who changes a value on purpose deletes
 that line, and the next `save` writes it anew. A file that is refused is not touched, and one that is written is the old
-one or the new one at any moment, never a part. What `save` writes, `load` reads.
+one or the new one at any moment, never a part. What `save` writes, `load` reads. Simulators
+take turns with a file: `held`.
 """
 
+import errno
+import glob
 import json
 import os
 import secrets
 import stat
-from collections.abc import Iterable
-from contextlib import suppress
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 from zlib import crc32
 
+from filelock import FileLock, Timeout
+
 from i7000 import I7000Error
 from i7000.device import Eeprom
+from i7000.simulator.files import UnsuitableFileError, check_regular, open_regular
 from i7000.simulator.memory_values import FAULTS, Odd, WrongError, check_names, short, structured, told, unstructured
 
-__all__ = ["FORMAT", "VERSION", "MemoryFileError", "load", "save"]
+__all__ = ["FORMAT", "VERSION", "MemoryFileError", "held", "load", "save"]
 
 FORMAT = "i7000 modules"
 VERSION = 1
 
 _DIGITS = 20
 """More than any number in a file has."""
+_MOST = 40_000_000
+"""Bytes of a file: 256 modules with full logs have less."""
+_TOKEN = 8
+"""Random bytes in the name of a temporary file."""
 
 
 class MemoryFileError(I7000Error, ValueError):
@@ -53,13 +64,38 @@ class MemoryFileError(I7000Error, ValueError):
 # --- read and write ---------------------------------------------------------------------------------------------------
 
 
+@contextmanager
+def held(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Keep other simulators from a file for as long as this one uses it.
+
+    Special: a hidden file beside it carries the lock and stays there; the lock itself ends with the process. Temporary
+        files that an interrupted `save` has left are removed.
+    Errors: `MemoryFileError` if another simulator uses the file; that or `OSError` if `save` could not replace it.
+    """
+    target = Path(os.path.realpath(path))
+    with ExitStack() as locked:
+        with _named(path):
+            _mode(path)
+            target.parent.stat()  # A lock would make a directory that is not there.
+            try:
+                locked.enter_context(FileLock(target.with_name(f".{target.name}.lock"), timeout=0))
+            except Timeout:
+                raise _unsuitable(path, "is used by another simulator", "one simulator a file") from None
+            for left in target.parent.glob(f".{glob.escape(target.name)}.{'[0-9a-f]' * 2 * _TOKEN}.tmp"):
+                left.unlink()
+        yield
+
+
 def load(path: str | os.PathLike[str]) -> tuple[Eeprom, ...]:
     """Read the EEPROMs of modules.
 
     Errors: `MemoryFileError` for a file that is not as `save` writes them; `OSError` if it cannot be read.
     """
-    _check_regular(path)
-    data = Path(path).read_bytes()
+    try:
+        with open_regular(path, _MOST) as file:
+            data = file.read(_MOST)
+    except UnsuitableFileError as error:
+        raise _unsuitable(path, error.reason, error.allowed) from None
     try:
         return _modules(_parsed(data))
     except FAULTS as error:
@@ -70,8 +106,8 @@ def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
     """Write the EEPROMs of modules, all at once: whoever reads the file finds the old ones or the new ones.
 
     Special: what a symbolic link names is replaced, not the link. The mode of a file that exists is kept.
-    Errors: `MemoryFileError` for what `load` would refuse, and for what is no file; `OSError`. The old file stays as it
-        was then.
+    Errors: `MemoryFileError` for what `load` would refuse, and for what is no file; `OSError` that names `path`, also
+        for a read-only file. The old file stays as it was then.
     """
     modules = unstructured(eeproms)
     try:
@@ -79,9 +115,15 @@ def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
     except FAULTS as error:
         raise MemoryFileError(os.fspath(path), *told(error)) from None
     data = _text(modules).encode("ascii")
-    target = Path(os.path.realpath(path))
-    mode = _check_regular(target)
-    temporary = target.with_name(f".i7000-{secrets.token_hex(8)}.tmp")
+    if len(data) > _MOST:
+        raise _unsuitable(path, f"would have {len(data)} bytes", f"{_MOST} bytes")
+    with _named(path):
+        _replace(Path(os.path.realpath(path)), data)
+
+
+def _replace(target: Path, data: bytes) -> None:
+    mode = _mode(target)
+    temporary = target.with_name(f".{target.name}.{secrets.token_hex(_TOKEN)}.tmp")
     try:
         with temporary.open("xb") as file:
             file.write(data)
@@ -97,17 +139,39 @@ def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
         _sync(target.parent)
 
 
-def _check_regular(path: str | os.PathLike[str]) -> int | None:
-    """Tell the mode of a file, or None if there is none; refuse devices and pipes, which could be endless."""
+def _mode(path: str | os.PathLike[str]) -> int | None:
+    """Return the mode of a file that may be replaced, or None if there is no file.
+
+    Errors: `MemoryFileError` for devices and pipes; `OSError`, also for a file that is read-only.
+    """
     try:
-        mode = Path(path).stat().st_mode
+        status = Path(path).stat()
     except FileNotFoundError:
         return None
-    if stat.S_ISDIR(mode):
-        raise IsADirectoryError(f"{os.fspath(path)} is a directory")
-    if not stat.S_ISREG(mode):
-        raise MemoryFileError(os.fspath(path), "the file itself", "is a device or pipe", "a regular file")
-    return stat.S_IMODE(mode)
+    try:
+        check_regular(path, status)
+    except UnsuitableFileError as error:
+        raise _unsuitable(path, error.reason, error.allowed) from None
+    mode = stat.S_IMODE(status.st_mode)
+    if not mode & _WRITABLE or not os.access(path, os.W_OK):  # The superuser may write what nobody may.
+        raise PermissionError(errno.EACCES, "the file is read-only", os.fspath(path))
+    return mode
+
+
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
+
+
+@contextmanager
+def _named(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Raise errors of the system with the path that was given, not with that of a temporary file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
+
+
+def _unsuitable(path: str | os.PathLike[str], reason: str, allowed: str) -> MemoryFileError:
+    return MemoryFileError(os.fspath(path), "the file itself", reason, allowed)
 
 
 def _sync(directory: Path) -> None:
@@ -161,8 +225,8 @@ def _parsed(data: bytes) -> Any:  # noqa: ANN401 - any JSON
 def _object(pairs: list[tuple[str, Any]]) -> Any:  # noqa: ANN401 - a dict, or what stands for none
     found = dict(pairs)
     if len(found) < len(pairs):
-        names = [name for name, _ in pairs]
-        return Odd(f"an object that has {next(name for name in names if names.count(name) > 1)!r} twice")
+        (name, _), *_ = Counter(name for name, _ in pairs).most_common(1)
+        return Odd(f"an object that has {short(name)} twice")
     return found
 
 

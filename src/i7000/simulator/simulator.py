@@ -120,15 +120,22 @@ class Simulator:
         now = self.now
         self.change(Bus(tuple(advance(module, signals, now) for module, signals in self.modules())))
 
-    def change(self, bus: Bus) -> None:
-        """Make `bus` what there is, and store what has changed in its EEPROMs."""
+    def change(self, bus: Bus) -> bool:
+        """Make `bus` what there is, and store what has changed in its EEPROMs.
+
+        Return False, and leave the bus as it was, if that cannot be stored: the simulation has ended then.
+        """
         changed = any(one.eeprom is not other.eeprom for one, other in zip(bus.modules, self.bus.modules, strict=True))
-        self.bus = bus
-        if changed and self.store and not self._ended.done():
+        if changed and self.store:
+            if self._ended.done():
+                return False
             try:
                 self.store([module.eeprom for module in bus.modules])
             except (OSError, I7000Error) as error:
                 self._ended.set_exception(error)
+                return False
+        self.bus = bus
+        return True
 
     def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
         """Tell who observes the line."""
@@ -236,7 +243,8 @@ class Host:
         self._check_finished()
 
     def _take(self, bus: Bus, ear: Ear, told: Sequence[Heard]) -> None:
-        self.simulator.change(bus)
+        if not self.simulator.change(bus):
+            return  # Whatever is answered has been stored.
         self.ear = ear
         faults = self._faults
         if told:

@@ -5,12 +5,13 @@ what no input can have is refused when it is made. Inputs are sampled `SAMPLES_A
 holds until the next.
 """
 
-import csv
+from array import array
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from functools import lru_cache
-from itertools import pairwise
-from math import floor, inf, isfinite, pi, sin
+from itertools import islice
+from math import floor, inf, isfinite, isnan, pi, sin
+from operator import lt
 from random import Random
 from typing import TypeAlias
 
@@ -32,7 +33,6 @@ __all__ = [
     "Source",
     "Sources",
     "default_sources",
-    "read_recording",
 ]
 
 SAMPLES_A_SECOND = 10
@@ -46,8 +46,6 @@ _LATEST = 1e300
 """Seconds beyond which a simulation does not get: its tenths are still a float."""
 _REMEMBERED = 1024
 """Samples, of all modules together: more than one line has modules."""
-_SHOWN = 60
-"""Characters of a file that a message shows."""
 
 
 def _finite(source: object, attribute: "Attribute[float]", value: float) -> None:
@@ -181,40 +179,50 @@ class Noise:
         return Signal(self.mean + self.deviation * deviations, self.unit)
 
 
+def _doubles(values: Iterable[float]) -> "array[float]":
+    return values if isinstance(values, array) else array("d", values)
+
+
 @frozen(cache_hash=True)
 class Recorded:
     """What was recorded: each row holds until the next one, the last for ever, and the first before its time too.
 
-    Shape: `seconds` of each row, ascending, and as many `signals`.
+    Shape: `seconds` of each row, ascending, and as many `values`, nan where the wire is open. An array is kept as it
+        is; do not change it.
     Errors: `EncodeError`.
 
-    >>> recorded = Recorded((0, 2.5), (Signal(1.5, Unit.VOLT), OPEN_WIRE))
+    >>> from math import nan
+    >>> recorded = Recorded((0, 2.5), (1.5, nan), Unit.VOLT)
     >>> recorded.sample(24), recorded.sample(25)
     (Signal(value=1.5, unit=<Unit.VOLT: 'V'>), None)
     """
 
-    seconds: tuple[float, ...]
-    signals: tuple[Signal | None, ...]
+    seconds: "array[float]" = field(converter=_doubles, eq=array.tobytes)
+    values: "array[float]" = field(converter=_doubles, eq=array.tobytes)
+    unit: Unit
 
     def __attrs_post_init__(self) -> None:
-        if not self.seconds or len(self.seconds) != len(self.signals):
-            raise EncodeError("signals", self.signals, "as many as seconds, one at least", "")
-        for value in self.seconds:
-            if not 0 <= value < inf:
-                raise EncodeError("seconds", value, "0 or more", "")
-        for before, after in pairwise(self.seconds):
-            if after <= before:
-                raise EncodeError("seconds", after, f"more than the {before:g} before", "")
+        if not self.seconds or len(self.seconds) != len(self.values):
+            raise EncodeError("values", self.values, "as many as seconds, one at least", "")
+        if not (self.seconds[0] >= 0 and self.seconds[-1] < inf):
+            raise EncodeError("seconds", self.seconds, "0 or more", "")
+        if not all(map(lt, self.seconds, islice(self.seconds, 1, None))):
+            raise EncodeError("seconds", self.seconds, "each more than the one before", "")
+        if not isfinite(sum(self.values)) and inf in map(abs, self.values):
+            raise EncodeError("values", self.values, "finite numbers, or nan for an open wire", "")
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """All that it can give."""
-        return self.signals
+        """The lowest and the highest that it can give, and an open wire if there is one."""
+        known = [value for value in self.values if not isnan(value)]
+        found = [Signal(value, self.unit) for value in (min(known), max(known))] if known else []
+        return (*found, OPEN_WIRE) if len(known) < len(self.values) else tuple(found)
 
     def sample(self, number: int) -> Signal | None:
         """Tell what is there at the sample of that number."""
         row = bisect_right(self.seconds, number / SAMPLES_A_SECOND) - 1
-        return self.signals[max(row, 0)]
+        value = self.values[max(row, 0)]
+        return OPEN_WIRE if isnan(value) else Signal(value, self.unit)
 
 
 Source: TypeAlias = Fixed | Ramp | Sine | Noise | Recorded
@@ -305,67 +313,3 @@ def default_sources(eeprom: Eeprom) -> Sources:
 def _within(code: TypeCode, part: float) -> Fixed:
     low = max(0.0, code.minimum)
     return Fixed(Signal(round(low + (code.maximum - low) * part, code.decimals), code.unit))
-
-
-# --- recordings -------------------------------------------------------------------------------------------------------
-
-
-def read_recording(lines: Iterable[str], units: Mapping[str, Unit]) -> dict[str, Recorded]:
-    """Read columns of a CSV file, those that `units` names; the other ones may hold anything.
-
-    Shape: a line with the names of the columns: ``seconds``, numbers of channels, `COLD_JUNCTION`. Cells are numbers,
-        or ``open``. Empty lines do not count.
-    Errors: `EncodeError` that names the line.
-
-    >>> read_recording(["seconds,0,cold_junction", "0,1.5,25", "2.5,open,26"], {"0": Unit.VOLT})["0"].seconds
-    (0.0, 2.5)
-    """
-    rows = _rows(lines)
-    line, header = next(rows, (1, []))
-    for name in ("seconds", *units):
-        if header.count(name) != 1:
-            found = ", ".join(header)[:_SHOWN] or "none"
-            raise EncodeError("columns", header, f"one of them {name}", "", f"line {line}: the columns are {found}")
-    seconds: list[float] = []
-    signals: dict[str, list[Signal | None]] = {name: [] for name in units}
-    for line, row in rows:
-        cells = dict(zip(header, row, strict=False))
-        moment = _cell(line, "seconds", cells)
-        if seconds and moment <= seconds[-1]:
-            raise _wrong(line, "seconds", moment, f"more than the {seconds[-1]:g} before")
-        if moment < 0:
-            raise _wrong(line, "seconds", moment, "0 or more")
-        seconds.append(moment)
-        for name, unit in units.items():
-            signals[name].append(OPEN_WIRE if cells.get(name) == "open" else Signal(_cell(line, name, cells), unit))
-    if not seconds:
-        raise EncodeError("rows", 0, "one at least", "", f"line {line}: no rows follow")
-    return {name: Recorded(tuple(seconds), tuple(column)) for name, column in signals.items()}
-
-
-def _rows(lines: Iterable[str]) -> Iterator[tuple[int, list[str]]]:
-    """Find the rows that hold anything, with the numbers of their lines."""
-    reader = csv.reader(lines, strict=True)
-    try:
-        for row in reader:
-            cells = [cell.strip() for cell in row]
-            if any(cells):
-                yield reader.line_num, cells
-    except csv.Error as error:
-        reason = f"line {reader.line_num}: {error}"
-        raise EncodeError("line", reader.line_num, "values with commas between", "", reason) from None
-
-
-def _cell(line: int, name: str, cells: Mapping[str, str]) -> float:
-    text = cells.get(name, "")
-    try:
-        value = float(text)
-    except ValueError:
-        value = inf
-    if not isfinite(value):
-        raise _wrong(line, name, text, "a finite number" if name == "seconds" else "a finite number, or open")
-    return value
-
-
-def _wrong(line: int, name: str, value: object, allowed: str) -> EncodeError:
-    return EncodeError(name, value, allowed, "", f"line {line}: {name} cannot be {value!r:.{_SHOWN}}")

@@ -1,0 +1,68 @@
+"""Starting the program ``i7000``: Ctrl-C and a closed pipe end it at any moment without a traceback.
+
+It stands outside the package because importing the package takes a good part of the time of a short command, and
+nothing inside could take care of Ctrl-C meanwhile. For the same reason it imports as little as it can.
+"""
+
+import os
+import sys
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C: 128 and the number of the signal, as a shell has it."""
+CLOSED = 141
+"""Exit code if nobody reads the output to its end, as after ``| head -1``: the same of a broken pipe."""
+
+try:
+    import signal
+except KeyboardInterrupt:  # pragma: no cover
+    os._exit(INTERRUPTED)
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["CLOSED", "INTERRUPTED", "main", "program"]
+
+
+def main() -> int:
+    """Run the command line, and return the exit code of the process."""
+
+    def run() -> int:
+        from i7000.cli import main as command_line  # noqa: PLC0415 - when Ctrl-C is taken care of
+
+        return command_line()
+
+    return program(run)
+
+
+def program(run: "Callable[[], int]") -> int:
+    """Run a program, and return the exit code of the process.
+
+    Special: Ctrl-C ends the process where it is, unless `run` has it do something else. After `run` it has no effect.
+    """
+    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # A job in the background ignores it.
+    if heeded:
+        signal.signal(signal.SIGINT, _end)
+    code = run()
+    if heeded:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError as error:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())  # for what is left, which Python writes when it ends
+        return CLOSED if isinstance(error, BrokenPipeError) else code or 2
+    return code
+
+
+def _end(*_: object) -> None:
+    """End the process; an exception could come up where Python can only print it, and go on."""
+    try:
+        sys.stdout.flush()
+    finally:  # whether or not there is an output that can be written now
+        os._exit(INTERRUPTED)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

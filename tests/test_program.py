@@ -1,0 +1,240 @@
+"""The program ``i7000``, and how signals and closed pipes end it."""
+
+import io
+import os
+import pty
+import runpy
+import select
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from random import Random
+from time import monotonic
+
+import pytest
+
+import i7000_cli
+from i7000.cli import app
+from i7000_cli import CLOSED, INTERRUPTED, program
+
+PROGRAM = (sys.executable, "-m", "i7000_cli")
+MODELS = ("simulate", "--model", "I-7018")
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c() -> Iterator[None]:
+    """Ctrl-C as it was, whatever a test has made of it."""
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+# --- Ctrl-C -----------------------------------------------------------------------------------------------------------
+
+INTERRUPTED_WHILE_IMPORTING = """\
+import os, signal, sys
+import i7000_cli
+
+class Interrupting:
+    left = int(sys.argv.pop(1))
+
+    def find_spec(self, *_):
+        Interrupting.left -= 1
+        if Interrupting.left == 0:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+sys.exit(i7000_cli.main())
+"""
+
+
+@pytest.mark.parametrize("command", [("commands",), (*MODELS, "--tcp", "0")], ids=lambda command: command[0])
+@pytest.mark.parametrize("count", [1, *Random(7000).sample(range(2, 300), 3)])
+def test_ctrl_c_while_importing_ends_it_without_a_word(command: tuple[str, ...], count: int) -> None:
+    ended = subprocess.run(  # noqa: S603 - ourselves
+        [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, str(count), *command], capture_output=True, check=False
+    )
+
+    assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, b"", b"")
+
+
+def test_ctrl_c_while_it_waits_for_input_ends_it_without_a_word() -> None:
+    with subprocess.Popen(  # noqa: S603 - ourselves
+        [*PROGRAM, "decode"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as started:
+        assert started.stdin
+        assert started.stdout
+        started.stdin.write(b"$012\n")
+        started.stdin.flush()
+        told = started.stdout.readline()
+
+        started.send_signal(signal.SIGINT)
+        _, errors = started.communicate(timeout=20)
+
+    assert (started.returncode, errors) == (INTERRUPTED, b"")
+    assert b"$012" in told
+
+
+def test_a_job_in_the_background_goes_on_at_ctrl_c(monkeypatch: pytest.MonkeyPatch) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    monkeypatch.setattr(os, "_exit", pytest.fail)
+
+    assert program(interrupted) == 7
+
+
+def interrupted() -> int:
+    os.kill(os.getpid(), signal.SIGINT)
+    return 7
+
+
+@pytest.mark.parametrize("output", [io.StringIO(), None], ids=["an output", "no output"])
+def test_ctrl_c_ends_a_program_where_it_is(output: io.StringIO | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "_exit", sys.exit)
+    monkeypatch.setattr(sys, "stdout", output)
+
+    with pytest.raises(SystemExit) as ended:
+        program(interrupted)
+
+    assert ended.value.code == INTERRUPTED
+
+
+def test_ctrl_c_has_no_effect_when_a_program_is_done() -> None:
+    code = program(lambda: 7)
+    interrupted()
+
+    assert code == 7
+
+
+# --- output that nobody reads -----------------------------------------------------------------------------------------
+
+
+def written_to(descriptor: int, write: Callable[[io.TextIOWrapper], int]) -> int:
+    """Run a program whose output is a descriptor, which is closed then."""
+    with pytest.MonkeyPatch.context() as patched, open(descriptor, "w", encoding="ascii") as output:
+        patched.setattr(sys, "stdout", output)
+        return program(lambda: write(output))
+
+
+def some(output: io.TextIOWrapper) -> int:
+    output.write("some")
+    return 0
+
+
+def test_a_pipe_that_nobody_reads_has_an_exit_code_of_its_own() -> None:
+    read, write = os.pipe()
+    os.close(read)
+
+    assert written_to(write, some) == CLOSED
+
+
+def test_a_full_disk_is_a_failure() -> None:
+    assert written_to(os.open("/dev/full", os.O_WRONLY), some) == 2
+
+
+@pytest.mark.parametrize("arguments", [("commands",), ("--help",), ("decode", "$012")], ids=lambda it: it[0])
+def test_a_command_whose_output_is_not_read_ends_without_a_word(arguments: tuple[str, ...]) -> None:
+    read, write = os.pipe()
+    os.close(read)
+
+    ended = subprocess.run(  # noqa: S603 - ourselves
+        [*PROGRAM, *arguments], stdout=write, stderr=subprocess.PIPE, check=False
+    )
+    os.close(write)
+
+    assert (ended.returncode, ended.stderr) == (CLOSED, b"")
+
+
+@pytest.mark.parametrize(
+    ("error", "code"), [(BrokenPipeError(), CLOSED), (SystemExit(1), CLOSED), (KeyboardInterrupt(), INTERRUPTED)]
+)
+def test_what_ends_a_command_has_an_exit_code(
+    error: BaseException, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def end(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr(app, "app", end)
+
+    assert app.run(["commands"]) == code
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_command_without_an_output_writes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+
+    assert program(lambda: app.run(["commands"])) == 0
+
+
+def test_a_terminal_that_is_gone_is_no_other_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    with open("/dev/full", "w", encoding="ascii") as full:  # noqa: PTH123
+        monkeypatch.setattr(sys, "stderr", full)
+
+        assert app.run(["decode", "--file", "/no/such/file"]) == 2
+        with pytest.raises(OSError, match="No space"):
+            full.flush()
+        monkeypatch.undo()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), full.fileno())
+
+
+def test_the_program_can_be_run_as_a_module(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["i7000", "encode", "ReadConfiguration", "address=1"])
+    monkeypatch.delitem(sys.modules, "i7000_cli")
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("i7000_cli", run_name="__main__")
+
+    assert ended.value.code == 0
+    assert capsys.readouterr().out.startswith("$012")
+
+
+# --- hanging up -------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def on_a_terminal(*command: str) -> Iterator[tuple["subprocess.Popen[bytes]", Callable[[bytes], bytes]]]:
+    """Run a program on a terminal; the function reads what it writes until some text, or its end."""
+    end, near = pty.openpty()
+    with subprocess.Popen(  # noqa: S603 - ourselves
+        command, stdin=near, stdout=near, stderr=near, env={**os.environ, "TERM": "xterm"}, start_new_session=True
+    ) as started:
+        os.close(near)
+
+        def read(until: bytes) -> bytes:
+            seen, deadline = b"", monotonic() + 30
+            while until not in seen and monotonic() < deadline:
+                if select.select([end], [], [], 0.1)[0]:
+                    try:
+                        seen += os.read(end, 4096)
+                    except OSError:  # how Linux tells that nobody is there any more
+                        break
+            return seen
+
+        try:
+            yield started, read
+        finally:
+            started.kill()
+            os.close(end)
+
+
+def test_a_live_view_that_is_hung_up_leaves_the_terminal_as_it_was() -> None:
+    with on_a_terminal(*PROGRAM, *MODELS) as (started, read):
+        before = read(b"I-7018")
+        started.send_signal(signal.SIGHUP)
+        after = read(b"no more")
+        code = started.wait(20)
+
+    assert code == 0
+    assert b"\x1b[?1049h" in before
+    assert b"\x1b[?1049l" in after
+    assert b"\x1b[?25h" in after
+    assert b"Traceback" not in after
+
+
+def test_the_exit_codes_are_those_that_the_help_names(capsys: pytest.CaptureFixture[str]) -> None:
+    assert app.run(["--help"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+
+    assert f"{i7000_cli.INTERRUPTED} after Ctrl-C, {i7000_cli.CLOSED} if nobody reads" in told
