@@ -217,3 +217,56 @@ def test_a_sentinel_stands_in_the_section_that_prints_it(row: Record) -> None:
     section = {"disabled": "2.3"}.get(row["name"], "3.5" if row["format"] == "modbus_engineering" else "1.11")
 
     assert wrong([cell(row, "section", section), cell(row, "where", None), cell(row, "code", None)]) == []
+
+
+# Errata
+
+ERRATA: dict[tuple[str, object], list[str]] = {
+    ("data_format", 2): ["E45"],
+    ("mode", 0): ["E43", "E96"],
+    ("mode", 1): ["E43", "E95", "E96"],
+    ("filter", 1): ["E88"],
+    ("channel_mask", 1): ["E11", "E12"],
+    ("diagnostics", 1): ["E13", "E14"],
+    ("host_watchdog", 1): ["E100"],
+    ("limit", 60): ["E32"],
+    ("limit", 6): ["E102"],
+    ("default", "fast"): ["E95"],
+}
+OF_A_WHOLE_SETTING = {
+    "baud_rate": ["E89"],
+    "character_format": ["E44"],
+    "reserved": ["E89"],
+    "type_code": ["E81"],
+    "calibration": ["E33"],
+    "protocols_supported": ["E92"],
+    "host_watchdog_status": ["E31"],
+}
+"""What the errata are about: one code or value of a setting, or all of it."""
+
+
+def errata_of(row: Record) -> list[str]:
+    setting = row["setting"]
+    if setting == "sentinel":
+        return sentinel_errata(row)
+    if setting == "init_mode":
+        return ["E17", "E18"] if row["name"] == "module address" else ["E101"]
+    found = ERRATA.get((setting, row["value"] if setting == "default" else row["code"]))
+    return found or OF_A_WHOLE_SETTING.get(setting, [])
+
+
+def sentinel_errata(row: Record) -> list[str]:
+    """E25 blanks, E49 old firmware, E46 and E47 words that are readings too, E48 texts, E50 types that are assumed."""
+    if row["name"] == "disabled":
+        return ["E25"]
+    if row["until"]:
+        return ["E49"]
+    if row["format"] == "modbus_engineering":
+        return ["E48", "E50"]
+    if row["format"] in ("hex", "modbus_hex"):
+        return ["E46"] if row["types"] == THERMOCOUPLES else ["E47"]
+    return ["E48"] if row["types"] in (THERMOCOUPLES, ["07"]) else ["E50"]
+
+
+def test_a_row_names_the_errata_that_are_about_its_code() -> None:
+    assert wrong([cell(row, "errata", errata_of(row)) for row in ROWS]) == []

@@ -1,4 +1,4 @@
-"""The errata of the two tables of types follow from what is special about a type."""
+"""The names and errata of the tables of types follow from the range and from what is special about a type."""
 
 from __future__ import annotations
 
@@ -66,6 +66,24 @@ def test_types_are_printed_in_the_same_sections() -> None:
     cells = [
         Cell("tables/type_codes.json", row_id(row), "sections", row["sections"], ["1.11", "3.5", "A.5"])
         for row in TYPES.values()
+    ]
+
+    assert wrong(cells) == []
+
+
+def name_of(code: TypeCode) -> str:
+    """A range as the manual prints it, or the letter of a thermocouple."""
+    if code.thermocouple:
+        return f"Type {code.thermocouple} thermocouple"
+    if code.minimum == -code.maximum:
+        return f"+/-{code.maximum:g} {code.unit}"
+    return f"{code.minimum:+g} to +{code.maximum:g} {code.unit}".replace("+0 ", "0 ")
+
+
+def test_a_type_is_named_after_its_range() -> None:
+    cells = [
+        Cell("tables/type_codes.json", code, "name", row["name"], name_of(TypeCode(int(code, 16))))
+        for code, row in TYPES.items()
     ]
 
     assert wrong(cells) == []
