@@ -51,6 +51,8 @@ class Part:
     """The most characters of a part that takes all that are left."""
     characters: str = _DIGITS
     """What its characters can be, where a wrong one is a fault of its own."""
+    signed: bool = False
+    """Whether a sign stands before its `characters`; `parse` judges the sign itself."""
 
 
 _PAIRS = {f"{byte:02X}": byte for byte in range(256)}
@@ -118,7 +120,7 @@ def _offset(notation: str) -> Part:
 
     return Part(
         notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
-        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, characters="+-" + _DIGITS,
+        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, signed=True,
     )  # fmt: skip
 
 
@@ -338,8 +340,8 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
     except KeyError:
         if part.fault is not Fault.CHARACTER:
             return DecodeError(part.fault, text.encode(), allowed=part.allowed)
-        at = next(at for at, character in enumerate(text) if character not in part.characters)
-        allowed = "0-9 A-F" if part.characters.endswith(_DIGITS) else part.allowed
+        at = next(at for at in range(part.signed, len(text)) if text[at] not in part.characters)
+        allowed = "0-9 A-F" if part.characters == _DIGITS else part.allowed
         return DecodeError(part.fault, text.encode(), at, allowed=allowed)
     except DecodeError as error:
         return error
