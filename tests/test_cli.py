@@ -254,11 +254,22 @@ def test_the_decimals_of_a_type_tell_the_format() -> None:
     assert record["readings"][0]["value"] == 343.0
 
 
-def test_a_module_is_believed_if_the_decimals_fit_no_format() -> None:
-    _, record = told("#01", ">" + "+25.000" * 8, model=Model.I_7018, types=(TypeCode.K,))
+def test_a_reading_that_its_type_cannot_have_is_not_understood() -> None:
+    _, record = told("#01", ">" + "+0762.2" + "+05.000" * 7, model=Model.I_7017, types=(TypeCode.V_10,))
 
-    assert record["data_formats"] == ["engineering"]
-    assert record["readings"][0]["value"] == 25.0
+    assert record["name"] == "AnalogInputs"
+    assert record["fault"] == "number"
+    assert "as type 08 (-10..10 V) has it" in record["error"]
+    assert [reading["value"] for reading in record["readings"]] == [None] + [5.0] * 7
+    assert [reading["unit"] for reading in record["readings"]] == [None] + ["V"] * 7
+
+
+def test_a_reading_that_its_type_cannot_have_is_shown_without_a_value(run: Run) -> None:
+    result = run("decode", "--model", "I-7017", "--type", "V_10", "#010", ">+0152.4")
+
+    assert result.code == 1
+    assert "channel 0       +0152.4\n" in result.out
+    assert "not known" not in result.out
 
 
 def test_types_can_be_told_for_each_channel() -> None:

@@ -12,6 +12,7 @@ RINGS = {
     "errors": 1,
     "type_codes": 1,
     "settings": 1,
+    "fields": 1,
     "models": 1,
     "profile": 1,
     "readings": 2,

@@ -372,6 +372,58 @@ def test_readings_of_another_data_format_are_refused(values: tuple[str, ...]) ->
         dcon.readings(dcon.AnalogInputs(values), I_7017)
 
 
+MIXED_TYPES = evolve(M_7019R, type_codes=(TypeCode.V_10,) * 7 + (TypeCode.K,))
+
+
+@pytest.mark.parametrize(
+    ("profile", "values", "channel"),
+    [
+        (I_7017, ("+0762.2",) + ("+05.000",) * 7, 0),
+        (I_7017, ("+05.000",) * 7 + ("+11.001",), 7),
+        (I_7017, ("+05.000",) * 3 + ("-11.001",) + ("+05.000",) * 4, 3),
+        (I_7017, ("+05.000",) * 7 + ("+9999",), 7),
+        (evolve(I_7017, data_format=DataFormat.PERCENT), ("+110.01",) * 8, 0),
+        (MIXED_TYPES, ("+05.000",) * 8, 7),
+        (MIXED_TYPES, ("+05.000",) * 6 + ("+12.000", "+0025.1"), 6),
+    ],
+)
+def test_a_reading_that_its_type_cannot_have_is_refused(
+    profile: Profile, values: tuple[str, ...], channel: int
+) -> None:
+    with pytest.raises(DecodeError, match=f"number in the value of channel {channel} ") as caught:
+        dcon.readings(dcon.AnalogInputs(values), profile)
+
+    assert (caught.value.fault, caught.value.wire) == (Fault.NUMBER, values[channel].encode())
+
+
+def test_readings_beyond_the_range_are_those_of_the_module() -> None:
+    values = ("+11.000", "-11.000", "+10.001", "+00.000", "+9999.9", "-9999.9", "       ", "-00.001")
+
+    told = dcon.readings(dcon.AnalogInputs(values), I_7017)
+
+    assert [reading.value for reading in told] == [11.0, -11.0, 10.001, 0.0, None, None, None, -0.001]
+
+
+def test_a_lenient_caller_is_told_what_was_sent() -> None:
+    report = dcon.AnalogInputs(("+0762.2",) + ("+05.000",) * 7)
+
+    assert [reading.value for reading in dcon.readings(report, I_7017, lenient=True)] == [762.2] + [5.0] * 7
+    assert dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017, lenient=True) == Reading(762.2, Unit.VOLT)
+    with pytest.raises(DecodeError, match="number in value"):
+        dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017)
+
+
+def test_a_lenient_caller_is_told_no_text_of_other_firmware() -> None:
+    with pytest.raises(DecodeError, match="number in the value of channel 7"):
+        dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+9999",)), I_7017, lenient=True)
+
+
+def test_channels_of_several_types_are_read_each_by_its_own() -> None:
+    told = dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+0025.1",)), MIXED_TYPES)
+
+    assert [(reading.value, reading.unit) for reading in told[6:]] == [(5.0, Unit.VOLT), (25.1, Unit.CELSIUS)]
+
+
 def test_hex_readings_are_hex_whatever_the_data_format_is() -> None:
     told = dcon.readings(dcon.AnalogInputsHex(("7FFF",) * 8), I_7017)
 

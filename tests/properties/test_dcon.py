@@ -9,7 +9,8 @@ from attrs import evolve, fields
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from i7000 import DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
+from i7000 import DataFormat, DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
+from i7000.readings import decode_field
 from i7000.strategies import addresses, profiles, readings
 from i7000.strategies.dcon import (
     DAMAGES,
@@ -139,6 +140,35 @@ def test_readings_go_through_a_report_unchanged(data: st.DataObject) -> None:
     assert values == tuple(
         dcon.reading(dcon.AnalogInput(field), channel, profile) for channel, field in enumerate(report.values)
     )
+
+
+@given(exchanges(dcon.ReadAnalogInputs, dcon.ReadAnalogInputsHex, dcon.ReadAnalogInput, dcon.ReadSynchronizedData))
+def test_what_a_module_answers_has_readings(exchange: Exchange) -> None:
+    response, profile = exchange.response, exchange.profile
+    assume(profile.type_codes and not isinstance(response, dcon.Refused))
+
+    if isinstance(response, dcon.AnalogInput):
+        assert isinstance(exchange.command, dcon.ReadAnalogInput)
+        assert dcon.reading(response, exchange.command.channel, profile).unit is not None
+    else:
+        assert isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData)
+        assert profile.units == tuple(reading.unit for reading in dcon.readings(response, profile))
+
+
+@given(messages(dcon.AnalogInputs) | messages(dcon.AnalogInputsHex), profiles(known_types=True))
+def test_readings_are_those_of_the_fields_one_by_one(
+    report: dcon.AnalogInputs | dcon.AnalogInputsHex, profile: Profile
+) -> None:
+    assume(len(report.values) == profile.channels)
+    data_format = DataFormat.HEX if isinstance(report, dcon.AnalogInputsHex) else profile.data_format
+    fields = zip(report.values, profile.type_codes, strict=True)
+    try:
+        each = tuple(decode_field(it, code, data_format, legacy=profile.legacy_sentinels) for it, code in fields)
+    except DecodeError:
+        with pytest.raises(DecodeError):
+            dcon.readings(report, profile)
+    else:
+        assert each == dcon.readings(report, profile)
 
 
 # --- totality: a value or the package's own error ---------------------------------------------------------------------

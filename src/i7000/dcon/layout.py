@@ -15,8 +15,8 @@ from attrs import fields, frozen
 
 from i7000.dcon.frame import LONGEST_FRAME
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.fields import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.profile import Profile
-from i7000.readings import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
 from i7000.type_codes import TypeCode
 
