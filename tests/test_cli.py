@@ -355,7 +355,14 @@ def test_the_second_response_to_a_command_is_read_alone() -> None:
     *_, second = told("$012", "!01050600", "!01050600")
 
     assert second["answers"] is None
-    assert set(names(second)) == {"Configuration", "ChannelMask", "FirmwareVersion", "ModuleName"}
+    assert set(names(second)) == {"Configuration", "ChannelMask"}
+
+
+def test_what_stands_behind_a_name_is_no_part_of_it() -> None:
+    _, name, _, version = told("$01M", "!017018R (15 ms)", "$01F", "!01B1.5   // firmware")
+
+    assert (name["fault"], name["candidates"]) == ("length", [])
+    assert (version["fault"], version["candidates"]) == ("length", [])
 
 
 def test_a_response_after_a_broadcast_is_read_alone() -> None:

@@ -132,7 +132,9 @@ def test_mixed_types_are_announced_by_ff_where_they_are_possible() -> None:
         (dcon.SetModuleName, (1, "é"), "name"),
         (dcon.SetModuleName, (1, "a#b"), "name"),
         (dcon.SetModuleName, (1, b"7019"), "name"),
-        (dcon.ModuleName, (1, "A" * 251), "name"),
+        (dcon.ModuleName, (1, "7018ABC"), "name"),
+        (dcon.ModuleName, (1, "0506"), "name"),
+        (dcon.FirmwareVersion, (1, "B305"), "version"),
         (dcon.FirmwareVersion, (1, ""), "version"),
         (dcon.SetProtocol, (1, 1), "protocol"),
         (dcon.SetCjcUpdate, (1, 3), "update"),
@@ -260,7 +262,8 @@ def test_a_negative_mask_has_no_channels() -> None:
         ),
         (dcon.ReadSynchronizedData(0x01), Profile(Model.M_7019Z, checksum=True), 77),
         (dcon.ReadChannelMask(0x01), Profile(Model.M_7017Z, single_ended=True), 10),
-        (dcon.ReadModuleName(0x01), I_7017, 254),
+        (dcon.ReadModuleName(0x01), I_7017, 10),
+        (dcon.ReadFirmwareVersion(0x01), I_7017, 9),
     ],
     ids=repr,
 )
@@ -288,6 +291,31 @@ def test_a_message_is_shown_with_its_addresses_in_hex() -> None:
     assert repr(dcon.ProtocolSetting(1, modbus_supported=True, protocol=Protocol.DCON)).startswith(
         "ProtocolSetting(address=0x01, "
     )
+
+
+@pytest.mark.parametrize("model", Model)
+def test_a_number_of_a_model_is_a_name(model: Model) -> None:
+    number = (model.series + model.suffix.replace("-", "")).upper()[:6]
+
+    for name in (number, model.series):
+        told = dcon.decode_response(f"!01{name}\r".encode(), dcon.ReadModuleName(0x01), Profile(model))
+        assert told == dcon.ModuleName(0x01, name)
+
+
+@pytest.mark.parametrize("name", ["0506", "A2.0", "+0010"])
+def test_a_name_that_could_not_be_read_back_is_not_sent_and_not_taken(name: str) -> None:
+    with pytest.raises(EncodeError, match="a name that is the text of no other answer, manual"):
+        dcon.encode(dcon.SetModuleName(0x01, name), I_7017)
+
+    assert dcon.decode_command(f"~01O{name}\r".encode(), I_7017) == dcon.SetModuleName(0x01, name)
+
+
+@pytest.mark.parametrize(("frame", "fault", "offset"), [(b"~*1\r", Fault.CHARACTER, 2), (b"#1*\r", Fault.CHARACTER, 2)])
+def test_a_damaged_broadcast_is_held_against_the_broadcast(frame: bytes, fault: Fault, offset: int) -> None:
+    with pytest.raises(DecodeError) as caught:
+        dcon.decode_command(frame, M_7019R)
+
+    assert (fault, offset) == (caught.value.fault, caught.value.offset)
 
 
 # --- readings ---------------------------------------------------------------------------------------------------------

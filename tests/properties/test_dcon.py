@@ -10,6 +10,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from i7000 import DataFormat, DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
+from i7000.dcon.names import is_name
 from i7000.readings import decode_field
 from i7000.strategies import addresses, profiles, readings
 from i7000.strategies.dcon import (
@@ -413,6 +414,36 @@ def test_the_type_of_another_channel_is_refused(exchange: Exchange) -> None:
     assert caught.value.fault is Fault.VALUE
 
 
+@pytest.mark.parametrize("kind", [kind for kind in COMMANDS if kind.response.syntax.startswith("!")])
+@FEW
+@given(data=st.data())
+def test_no_answer_to_another_command_is_a_name_or_a_version(
+    kind: type[dcon.Command[Any]], data: st.DataObject
+) -> None:
+    exchange = data.draw(exchanges(kind))
+    response = exchange.response
+    assume(not isinstance(response, dcon.Refused))
+    address: int = response.address  # type: ignore[attr-defined] # all of these have one
+    number = re.search(rb"^!..701[789]", exchange.response_wire)  # a mask that is the number of a series
+
+    name = decoded(dcon.decode_response, exchange.response_wire, dcon.ReadModuleName(address), exchange.profile)
+    version = decoded(dcon.decode_response, exchange.response_wire, dcon.ReadFirmwareVersion(address), exchange.profile)
+
+    assert isinstance(name, dcon.ModuleName) == isinstance(response, dcon.ModuleName) or number
+    assert isinstance(version, dcon.FirmwareVersion) == isinstance(response, dcon.FirmwareVersion)
+
+
+@given(st.from_regex(r"[0-9A-F+\-CR.]{1,6}", fullmatch=True))
+def test_what_is_no_name_is_another_answer(text: str) -> None:
+    assume(not re.match("701[789]", text))
+    frame = f"!01{text}\r".encode()
+    assume(frame[-3:-1] != b"%02X" % (sum(frame[:-3]) & 0xFF))
+    others = decoded(dcon.response_candidates, frame)
+
+    told = () if isinstance(others, DecodeError) else others
+    assert is_name(text) == all(isinstance(response, dcon.ModuleName) for response in told)
+
+
 # --- what the profile and the command tell beforehand -----------------------------------------------------------------
 
 
@@ -445,8 +476,10 @@ def test_the_longest_response_is_told_exactly_where_its_length_is_fixed(
 
     told = dcon.longest_response(exchange.command, exchange.profile)
 
-    if kind in (dcon.ReadFirmwareVersion, dcon.ReadModuleName):
-        assert told == dcon.LONGEST_FRAME - 2 * (not exchange.profile.checksum)
+    if isinstance(exchange.response, dcon.FirmwareVersion):
+        assert len(exchange.response.version) - 5 == len(exchange.response_wire) - told
+    elif isinstance(exchange.response, dcon.ModuleName):
+        assert len(exchange.response.name) - 6 == len(exchange.response_wire) - told
     else:
         assert len(exchange.response_wire) == told
 

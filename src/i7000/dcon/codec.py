@@ -409,8 +409,6 @@ def _unknown_types(data: str, profile: Profile) -> DecodeError:
 def longest_response(command: AnyCommand, profile: Profile) -> int:
     """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
 
-    Special: the manual bounds neither the version that is told nor the name; for these, what a frame can hold.
-
     >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
     58
     """

@@ -7,6 +7,7 @@ is held to take is asked of the message's own `check`.
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
 from functools import cache
+from string import ascii_uppercase
 from typing import Any, TypeVar, cast, get_args
 
 from attrs import Attribute, fields, frozen
@@ -16,10 +17,10 @@ from hypothesis.strategies import SearchStrategy
 from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Model, Profile, ReportSettings, TypeCode
 from i7000.dcon import (
     COMMANDS,
-    LONGEST_FRAME,
     AnyCommand,
     Broadcast,
     Command,
+    FirmwareVersion,
     Message,
     ReadAnalogInput,
     ReadConfiguration,
@@ -31,6 +32,7 @@ from i7000.dcon import (
 from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
+from i7000.dcon.names import CHARACTERS
 from i7000.fields import FIELD_WIDTHS
 from i7000.models import AVAILABILITY
 from i7000.readings import encode_field
@@ -151,7 +153,7 @@ def _part(  # noqa: PLR0911 - a table
         known = st.sampled_from((*supported_types(profile), MIXED))
         return known | st.integers(0, 0xFF).map(TypeCode.of) if free else known
     if part.longest and not part.contextual:
-        return st.text(_TEXT, min_size=1, max_size=_room(kind, part.longest(profile), profile))
+        return (_VERSIONS if kind is FirmwareVersion else _NAMES).filter(part.accepts)
     if part.longest:
         width = part.longest(profile) // (1 if origin is str else profile.channels)
         data_format = DataFormat.HEX if width == FIELD_WIDTHS[DataFormat.HEX] else profile.data_format
@@ -161,13 +163,8 @@ def _part(  # noqa: PLR0911 - a table
     return addresses() if attribute.name in ("address", "new_address") else _number(part, profile, accepted=accepted)
 
 
-_TEXT = st.characters(codec="ascii", exclude_categories=["Cc"], exclude_characters="%#$~@!>?")
-
-
-def _room(kind: type[Message], longest: int, profile: Profile) -> int:
-    """Tell the characters that a text may have in a frame of this class."""
-    others = kind.layout.longest(profile) - longest + 2 * profile.checksum + 1
-    return min(longest, LONGEST_FRAME - others)
+_VERSIONS = st.builds("{}{}.{}".format, st.sampled_from(ascii_uppercase), st.integers(0, 9), st.integers(0, 99))
+_NAMES = st.text(st.sampled_from(sorted(CHARACTERS, key=lambda it: (not it.isalpha(), it))), min_size=1, max_size=6)
 
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
