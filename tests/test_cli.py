@@ -255,11 +255,22 @@ def test_the_decimals_of_a_type_tell_the_format() -> None:
     assert record["readings"][0]["value"] == 343.0
 
 
-def test_a_module_is_believed_if_the_decimals_fit_no_format() -> None:
-    _, record = told("#01", ">" + "+25.000" * 8, model=Model.I_7018, types=(TypeCode.K,))
+def test_a_reading_that_its_type_cannot_have_is_not_understood() -> None:
+    _, record = told("#01", ">" + "+0762.2" + "+05.000" * 7, model=Model.I_7017, types=(TypeCode.V_10,))
 
-    assert record["data_formats"] == ["engineering"]
-    assert record["readings"][0]["value"] == 25.0
+    assert record["name"] == "AnalogInputs"
+    assert record["fault"] == "number"
+    assert "as type 08 (-10..10 V) has it" in record["error"]
+    assert [reading["value"] for reading in record["readings"]] == [None] + [5.0] * 7
+    assert [reading["unit"] for reading in record["readings"]] == [None] + ["V"] * 7
+
+
+def test_a_reading_that_its_type_cannot_have_is_shown_without_a_value(run: Run) -> None:
+    result = run("decode", "--model", "I-7017", "--type", "V_10", "#010", ">+0152.4")
+
+    assert result.code == 1
+    assert "channel 0       +0152.4\n" in result.out
+    assert "not known" not in result.out
 
 
 def test_types_can_be_told_for_each_channel() -> None:
@@ -345,7 +356,14 @@ def test_the_second_response_to_a_command_is_read_alone() -> None:
     *_, second = told("$012", "!01050600", "!01050600")
 
     assert second["answers"] is None
-    assert set(names(second)) == {"Configuration", "ChannelMask", "FirmwareVersion", "ModuleName"}
+    assert set(names(second)) == {"Configuration", "ChannelMask"}
+
+
+def test_what_stands_behind_a_name_is_no_part_of_it() -> None:
+    _, name, _, version = told("$01M", "!017018R (15 ms)", "$01F", "!01B1.5   // firmware")
+
+    assert (name["fault"], name["candidates"]) == ("length", [])
+    assert (version["fault"], version["candidates"]) == ("length", [])
 
 
 def test_a_response_after_a_broadcast_is_read_alone() -> None:

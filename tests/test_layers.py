@@ -13,6 +13,7 @@ RINGS = {
     "frozen": 1,
     "type_codes": 1,
     "settings": 1,
+    "fields": 1,
     "models": 1,
     "profile": 1,
     "readings": 2,

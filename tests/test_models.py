@@ -161,3 +161,11 @@ def test_the_types_of_a_model_cannot_be_changed() -> None:
 
     with pytest.raises(TypeError):
         types[TypeCode.V_10] = None
+
+
+@pytest.mark.parametrize(
+    "value", [Firmware("B3.9"), True, (TypeCode.V_10,) * 8, DataFormat.HEX, ModbusDataFormat.HEX], ids=repr
+)
+def test_only_the_model_of_a_profile_can_go_without_its_name(value: Any) -> None:
+    with pytest.raises(TypeError, match="positional argument"):
+        Profile(Model.M_7017, value)  # type: ignore[call-arg]

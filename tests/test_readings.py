@@ -5,14 +5,15 @@ import math
 import pytest
 
 from i7000 import DataFormat, DecodeError, EncodeError, Fault, Reading, Status, TypeCode, Unit
+from i7000.fields import split_fields
 from i7000.readings import (
     decode_engineering_word,
     decode_field,
     decode_word,
     encode_engineering_word,
     encode_field,
+    encode_fields,
     encode_word,
-    split_fields,
 )
 
 ENCODERS = [
@@ -182,3 +183,92 @@ def test_a_number_that_is_no_word_is_refused(word: int) -> None:
             decode(word, TypeCode.K)
 
         assert Fault.NUMBER is caught.value.fault
+
+
+# --- what a module of the type writes ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("field", "code", "data_format", "allowed"),
+    [
+        ("+0152.4", TypeCode.V_10, DataFormat.ENGINEERING, "-11.000..+11.000, as type 08 (-10..10 V) has it"),
+        ("+11.001", TypeCode.V_10, DataFormat.ENGINEERING, "-11.000..+11.000, as type 08 (-10..10 V) has it"),
+        ("+025.12", TypeCode.K, DataFormat.ENGINEERING, "-0407.2..+1509.2, as type 0F (K) has it"),
+        ("+112.51", TypeCode.MA_4_20, DataFormat.PERCENT, "-012.50..+112.50, as type 07 (4..20 mA) has it"),
+        ("-110.01", TypeCode.V_10, DataFormat.PERCENT, "-110.00..+110.00, as type 08 (-10..10 V) has it"),
+        ("9000", TypeCode.K, DataFormat.HEX, "-407.2..1509.2 degC, as type 0F (K) has it"),
+    ],
+)
+def test_a_number_that_no_module_of_the_type_writes_takes_leniency(
+    field: str, code: TypeCode, data_format: DataFormat, allowed: str
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        decode_field(field, code, data_format)
+
+    assert (caught.value.fault, caught.value.wire, caught.value.allowed) == (Fault.NUMBER, field.encode(), allowed)
+    assert decode_field(field, code, data_format, lenient=True).status is Status.OK
+
+
+@pytest.mark.parametrize("code", TypeCode, ids=lambda code: f"{code:02X}")
+def test_texts_of_statuses_are_those_of_every_type(code: TypeCode) -> None:
+    for field, status in (("+9999.9", Status.OVER_RANGE), ("-9999.9", Status.UNDER_RANGE), (" " * 7, Status.DISABLED)):
+        assert status is decode_field(field, code, DataFormat.ENGINEERING).status
+    for field, status in (("+9999", Status.OVER_RANGE), ("-0000", Status.UNDER_RANGE)):
+        assert status is decode_field(field, code, DataFormat.ENGINEERING, legacy=True).status
+
+
+# --- reports ----------------------------------------------------------------------------------------------------------
+
+VOLTS = tuple(Reading(value, Unit.VOLT) for value in (0.0, 1.5, -10.0, 10.0, -0.001, 9.999, 0.0004, 5.0))
+
+
+def test_a_report_of_one_type_is_written_channel_by_channel() -> None:
+    fields = encode_fields(VOLTS, (TypeCode.V_10,) * 8, DataFormat.ENGINEERING)
+
+    assert fields == ("+00.000", "+01.500", "-10.000", "+10.000", "-00.001", "+09.999", "+00.000", "+05.000")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        Reading(10.001, Unit.VOLT),
+        Reading(-10.001, Unit.VOLT),
+        Reading(math.nan, Unit.VOLT),
+        Reading(True, Unit.VOLT),
+        Reading(None, Unit.VOLT),
+        Reading(1.0, Unit.MILLIVOLT),
+        Reading(1.0, "V"),  # type: ignore[arg-type]
+        Reading(1.0, Unit.VOLT, Status.OVER_RANGE),
+        Reading(1.0, Unit.VOLT, "ok"),  # type: ignore[arg-type]
+    ],
+    ids=repr,
+)
+@pytest.mark.parametrize("channel", [0, 7])
+def test_one_reading_that_cannot_be_written_is_refused_among_seven_that_can(channel: int, wrong: Reading) -> None:
+    readings = [*VOLTS]
+    readings[channel] = wrong
+
+    with pytest.raises(EncodeError):
+        encode_fields(tuple(readings), (TypeCode.V_10,) * 8, DataFormat.ENGINEERING)
+
+
+@pytest.mark.parametrize("value", [-0.0, -0.0004])
+@pytest.mark.parametrize("channel", [0, 7])
+def test_one_zero_below_zero_is_written_with_a_plus_among_seven_others(channel: int, value: float) -> None:
+    readings = [*VOLTS]
+    readings[channel] = Reading(value, Unit.VOLT)
+
+    assert encode_fields(tuple(readings), (TypeCode.V_10,) * 8, DataFormat.ENGINEERING)[channel] == "+00.000"
+
+
+def test_a_whole_number_is_written_as_any_other() -> None:
+    readings = (*VOLTS[:7], Reading(5, Unit.VOLT))
+
+    assert encode_fields(readings, (TypeCode.V_10,) * 8, DataFormat.ENGINEERING)[7] == "+05.000"
+
+
+def test_a_report_of_several_types_has_the_decimals_of_each() -> None:
+    readings = (Reading(1.5, Unit.VOLT), Reading(25.1, Unit.CELSIUS))
+
+    assert encode_fields(readings, (TypeCode.V_10, TypeCode.K), DataFormat.ENGINEERING) == ("+01.500", "+0025.1")
+    assert encode_fields(readings, (TypeCode.V_10, TypeCode.K), DataFormat.PERCENT) == ("+015.00", "+001.83")

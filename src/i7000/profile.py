@@ -1,8 +1,11 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
+from typing import NamedTuple
+
 from attrs import field
 
 from i7000.errors import EncodeError
+from i7000.fields import TEXT_WIDTH
 from i7000.frozen import frozen
 from i7000.models import AVAILABILITY, CONFIGURABLE, Firmware, Gates, Model
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
@@ -12,6 +15,17 @@ __all__ = ["Profile"]
 
 LAST_LEGACY = Firmware("B1.4")
 """The last firmware of the I-7018 series with readings out of range in five characters (E49)."""
+
+
+class Numbers(NamedTuple):
+    """How all channels of a module write numbers in engineering units, if all have one type."""
+
+    points: slice
+    """Where in a line of them the points stand."""
+    all_points: str
+    """What stands there."""
+    lowest: float
+    highest: float
 
 
 @frozen
@@ -46,6 +60,8 @@ class Profile:
     """Hex digits of a channel mask in DCON commands."""
     units: tuple[Unit, ...] = field(init=False, eq=False, repr=False)
     """The unit of each channel, if the types are known."""
+    numbers: Numbers | None = field(init=False, eq=False, repr=False)
+    """What is in a report in engineering units of channels of one type; None for any other report."""
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
     """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
     refused: frozenset[str] = field(init=False, eq=False, repr=False)
@@ -69,6 +85,8 @@ class Profile:
         derive(self, "refused", refused)
         self._check_types()
         derive(self, "units", tuple(code.unit for code in self.type_codes))
+        engineering = self.data_format is DataFormat.ENGINEERING and len(set(self.type_codes)) == 1
+        derive(self, "numbers", _numbers(self.type_codes[0], channels) if engineering else None)
 
     @property
     def name(self) -> str:
@@ -135,3 +153,8 @@ class Profile:
 def _channels(profile: Profile) -> int:
     single_ended = profile.model.single_ended_channels
     return single_ended if profile.single_ended and single_ended else profile.model.channels
+
+
+def _numbers(code: TypeCode, channels: int) -> Numbers:
+    points = slice(TEXT_WIDTH - 1 - code.decimals, None, TEXT_WIDTH)
+    return Numbers(points, "." * channels, code.lowest, code.highest)

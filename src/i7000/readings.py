@@ -1,19 +1,17 @@
 """What the fields of a report mean: text, percent, hex and Modbus words <-> `Reading` (manual 1.11, 3.5, A.5).
 
-Laws: a field decodes to the double nearest to what was sent, also beyond the span: a module is believed. A reading is
-encoded to the nearest count of its format, and refused where its type and format cannot say it; nothing is clamped.
-Sentinels are compared as text or word before any number is made of them.
+Laws: a field decodes to the double nearest to what was sent. What no module of the type writes is refused, unless the
+caller is lenient: other decimals, or a value further than a tenth of full scale beyond the span (E121). A word decodes
+whatever its value is. A reading is encoded to the nearest count of its format, and refused where its type and format
+cannot say it; nothing is clamped. Sentinels are compared as text or word before any number is made of them.
 """
 
-import re
-from collections.abc import Callable
-from enum import Enum
 from itertools import repeat
-from operator import itemgetter
 from types import MethodType
 from typing import NamedTuple
 
 from i7000.errors import DecodeError, EncodeError, Fault, shown
+from i7000.fields import FIELD_WIDTHS, LEGACY_SENTINELS, TEXT_SENTINELS, TEXT_WIDTH, Status, is_field, not_a_field
 from i7000.profile import Profile
 from i7000.settings import DataFormat
 from i7000.type_codes import TypeCode, Unit
@@ -28,16 +26,6 @@ __all__ = [
     "encode_field",
     "encode_word",
 ]
-
-
-class Status(Enum):
-    """What a reading is worth."""
-
-    OK = "ok"
-    OVER_RANGE = "over_range"
-    UNDER_RANGE = "under_range"
-    DISABLED = "disabled"
-    """The channel is switched off and reports blanks."""
 
 
 class Reading(NamedTuple):
@@ -55,151 +43,67 @@ class Reading(NamedTuple):
 
 # --- DCON fields ------------------------------------------------------------------------------------------------------
 
-_TEXT_SENTINELS = {
-    "+9999.9": Status.OVER_RANGE,
-    "-9999.9": Status.UNDER_RANGE,
-    "+999.99": Status.OVER_RANGE,
-    "-999.99": Status.UNDER_RANGE,
-}
-_LEGACY_SENTINELS = {"+9999": Status.OVER_RANGE, "-0000": Status.UNDER_RANGE}
-"""Of old firmware (`Profile.legacy_sentinels`), in every data format. ``-0000.5`` is not one of them (E49)."""
-
-LEGACY_WIDTH = 5
-FIELD_WIDTHS = {DataFormat.ENGINEERING: 7, DataFormat.PERCENT: 7, DataFormat.HEX: 4}
-_TEXT_WIDTH = FIELD_WIDTHS[DataFormat.ENGINEERING]
-_TEXT_BLANKS = " " * _TEXT_WIDTH
-
 _OUT_OF_RANGE_TEXTS = {
     DataFormat.ENGINEERING: {Status.OVER_RANGE: "+9999.9", Status.UNDER_RANGE: "-9999.9"},
     DataFormat.PERCENT: {Status.OVER_RANGE: "+999.99", Status.UNDER_RANGE: "-999.99"},
 }
-_LEGACY_TEXTS = {status: text for text, status in _LEGACY_SENTINELS.items()}
-_FORMS = {
-    DataFormat.ENGINEERING: "sign, five digits and a point among them, or 7 blanks",
-    DataFormat.PERCENT: "sign, three digits, point, two digits, or 7 blanks",
-    DataFormat.HEX: "four digits 0-9 A-F, or 4 blanks",
-}
-
-_TEXT_SHAPE = bytes.maketrans(b"123456789-", b"000000000+")
-_SHAPE = {
-    DataFormat.ENGINEERING: _TEXT_SHAPE,
-    DataFormat.PERCENT: _TEXT_SHAPE,
-    DataFormat.HEX: bytes.maketrans(b"123456789ABCDEF", b"000000000000000"),
-}
-"""Digits as 0 and signs as +: what has the same shape is written in the same form."""
-_SHAPES = {
-    DataFormat.ENGINEERING: frozenset({b"+0.0000", b"+00.000", b"+000.00", b"+0000.0"}),
-    DataFormat.PERCENT: frozenset({b"+000.00"}),
-    DataFormat.HEX: frozenset({b"0000"}),
-}
+_LEGACY_TEXTS = {status: text for text, status in LEGACY_SENTINELS.items()}
 
 
-def _splitter(count: int, width: int) -> Callable[[str], tuple[str, ...]]:
-    if count == 1:
-        return lambda text: (text,)
-    return itemgetter(*(slice(at * width, (at + 1) * width) for at in range(count)))
-
-
-_UNIFORM = {
-    (data_format, count): (
-        _SHAPE[data_format],
-        frozenset(shape * count for shape in shapes),
-        _splitter(count, FIELD_WIDTHS[data_format]),
-    )
-    for data_format, shapes in _SHAPES.items()
-    for count in (1, 8, 10, 16, 20)
-}
-"""How lines of which all fields are numbers of one form are known at one glance, and split."""
-
-
-def is_field(field: str, data_format: DataFormat, *, legacy: bool = False) -> bool:
-    """Whether `field` is one whole channel field of `data_format`: a number, a sentinel or blanks."""
-    if field == " " * FIELD_WIDTHS[data_format] or (legacy and field in _LEGACY_SENTINELS):
-        return True
-    if field.encode("ascii", "replace").translate(_SHAPE[data_format]) in _SHAPES[data_format]:
-        return True
-    return data_format is DataFormat.PERCENT and field in _TEXT_SENTINELS
-
-
-def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool = False) -> tuple[str, ...]:
-    """Split the (Data) of a report into the fields of its `count` channels (1, 8, 10, 16 or 20), each as sent.
-
-    Errors: `DecodeError` with `Fault.LENGTH`, `NUMBER` (text) or `CHARACTER` (hex) and the offset in `text`.
-    Manual: 1.11, 2.3; E25, E49.
-
-    >>> split_fields("+9999-0000.5-0000", 3, DataFormat.ENGINEERING, legacy=True)
-    ('+9999', '-0000.5', '-0000')
-    """
-    if not legacy:
-        shape, uniform, split = _UNIFORM[data_format, count]
-        if text.encode().translate(shape) in uniform:
-            return split(text)
-    width = FIELD_WIDTHS[data_format]
-    if legacy:
-        fields = tuple(re.findall(_LEGACY_FIELD[data_format], text))
-    else:
-        fields = tuple(text[at : at + width] for at in range(0, len(text), width))
-    if len(fields) != count or (len(text) != count * width and not legacy):
-        length = f"{count} fields of {width} characters"
-        raise DecodeError(Fault.LENGTH, text.encode(), min(len(text), count * width), allowed=length, section="1.11")
-    at = 0
-    for field in fields:
-        if not is_field(field, data_format, legacy=legacy):
-            raise _not_a_field(text, at, data_format)
-        at += len(field)
-    return fields
-
-
-_LEGACY_FIELD = {
-    DataFormat.ENGINEERING: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.PERCENT: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.HEX: r"\+9999|-0000|.{1,4}",
-}
-
-
-def _not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
-    fault = Fault.CHARACTER if data_format is DataFormat.HEX else Fault.NUMBER
-    wire = text.encode("ascii", "backslashreplace")
-    return DecodeError(fault, wire, at, field="value", allowed=_FORMS[data_format], section="1.11")
-
-
-def are_fields(fields: tuple[str, ...]) -> bool:
-    """Whether all of `fields` are whole channel fields of some one data format, of whatever firmware."""
-    known = _UNIFORM.get((DataFormat.ENGINEERING, len(fields)))
-    if known:  # nearly always: all are numbers, which is seen at one glance
-        text = "".join(fields)
-        shape, uniform, split = known
-        if text.encode("ascii", "replace").translate(shape) in uniform and split(text) == fields:
-            return True
-    return any(all(is_field(field, data_format, legacy=True) for field in fields) for data_format in DataFormat)
-
-
-def decode_field(field: str, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> Reading:
+def decode_field(
+    field: str, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False, lenient: bool = False
+) -> Reading:
     """Read one channel's field of a DCON report.
 
     Shape: 7 characters in engineering units and percent, 4 in hex; blanks of the same width for a disabled channel.
     Unit: that of the type code. A percentage is one of `TypeCode.full_scale`; of types 07 and 1A, one of their span.
     Special: ``+9999.9`` and ``+999.99`` are over range, ``-9999.9`` and ``-999.99`` under range; with `legacy`
         (`Profile.legacy_sentinels`) ``+9999`` and ``-0000`` too. For hex see `decode_word`.
-    Errors: `DecodeError` with `Fault.NUMBER` (text) or `CHARACTER` (hex).
-    Manual: 1.11, 2.3; E46, E48, E49, E50.
+    Range: the decimals of the type, and up to a tenth of full scale beyond its span; with `lenient`, any.
+    Errors: `DecodeError` with `Fault.NUMBER`; with `CHARACTER` for what is no hex word.
+    Manual: 1.11, 2.3; E46, E48, E49, E50, E121.
 
     >>> decode_field("-025.12", TypeCode.J, DataFormat.ENGINEERING)
     Reading(value=-25.12, unit=<Unit.CELSIUS: 'degC'>, status=<Status.OK: 'ok'>)
     """
     if not is_field(field, data_format, legacy=legacy):
-        raise _not_a_field(field, 0, data_format)
+        raise not_a_field(field, 0, data_format)
     if field.isspace():
         return Reading(None, type_code.unit, Status.DISABLED)
-    if legacy and field in _LEGACY_SENTINELS:
-        return Reading(None, type_code.unit, _LEGACY_SENTINELS[field])
+    if legacy and field in LEGACY_SENTINELS:
+        return Reading(None, type_code.unit, LEGACY_SENTINELS[field])
     if data_format is DataFormat.HEX:
-        return decode_word(int(field, 16), type_code)
-    if field in _TEXT_SENTINELS:
-        return Reading(None, type_code.unit, _TEXT_SENTINELS[field])
-    if data_format is DataFormat.ENGINEERING:
-        return Reading(float(field), type_code.unit)
-    return Reading(_from_part(float(field.replace(".", "")), 10_000, type_code), type_code.unit)
+        reading = decode_word(int(field, 16), type_code)
+    elif field in TEXT_SENTINELS:
+        reading = Reading(None, type_code.unit, TEXT_SENTINELS[field])
+    elif data_format is DataFormat.ENGINEERING:
+        reading = Reading(float(field), type_code.unit)
+    else:
+        reading = Reading(_from_part(float(field.replace(".", "")), 10_000, type_code), type_code.unit)
+    if not lenient and reading.value is not None and not _is_written(field, reading.value, type_code, data_format):
+        allowed = _written(type_code, data_format)
+        raise DecodeError(Fault.NUMBER, field.encode(), field="value", allowed=allowed, section="1.11")
+    return reading
+
+
+def _is_written(field: str, value: float, type_code: TypeCode, data_format: DataFormat) -> bool:
+    """Whether a module writes this number with this type (E121)."""
+    pointed = data_format is not DataFormat.ENGINEERING or field[-1 - type_code.decimals] == "."
+    return pointed and type_code.lowest <= value <= type_code.highest
+
+
+def _written(type_code: TypeCode, data_format: DataFormat) -> str:
+    """What a module writes with this type, for messages."""
+    low, high, unit = type_code.lowest, type_code.highest, type_code.unit
+    if data_format is DataFormat.HEX:
+        ends = f"{low:g}..{high:g} {unit}"
+    else:
+        if data_format is DataFormat.PERCENT:
+            low, high = _percent(low, type_code), _percent(high, type_code)
+        form, _, _ = _TEXTS[data_format, type_code]
+        ends = f"{form}..{form}" % (low, high)
+    span = f"{type_code.minimum:g}..{type_code.maximum:g} {unit}"
+    return f"{ends}, as type {type_code:02X} ({type_code.thermocouple or span}) has it"
 
 
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:
@@ -247,7 +151,7 @@ def encode_fields(
             and False not in [low <= value <= high for value in values]
         ):  # nearly always, so it is done without a step in Python for each channel
             text = form * len(types) % values
-            fields = tuple([text[at : at + _TEXT_WIDTH] for at in range(0, len(text), _TEXT_WIDTH)])
+            fields = tuple([text[at : at + TEXT_WIDTH] for at in range(0, len(text), TEXT_WIDTH)])
             if _MINUS_ZEROS.isdisjoint(fields):
                 return fields
     return tuple(
@@ -255,26 +159,44 @@ def encode_fields(
     )
 
 
-def decode_fields(fields: tuple[str, ...], profile: Profile, data_format: DataFormat) -> tuple[Reading, ...]:
+def decode_numbers(fields: tuple[str, ...], profile: Profile) -> tuple[Reading, ...] | None:
+    """Read the fields of all channels if they are numbers of their types in engineering units: nearly always.
+
+    Special: channels of one type take no step in Python each. None for any other report: see `decode_fields`.
+    """
+    if profile.data_format is not DataFormat.ENGINEERING:
+        return None
+    if profile.numbers is None:
+        found = [
+            make_reading((value, code.unit, Status.OK))
+            for field, code in zip(fields, profile.type_codes, strict=False)
+            if field[-1 - code.decimals :][:1] == "." and code.lowest <= (value := float(field)) <= code.highest
+        ]
+        return tuple(found) if len(found) == len(fields) == len(profile.type_codes) else None
+    points, all_points, lowest, highest = profile.numbers
+    if "".join(fields)[points] != all_points:
+        return None
+    values = tuple(map(float, fields))
+    ordered = sorted(values)
+    if ordered[0] < lowest or ordered[-1] > highest:
+        return None
+    return tuple(map(make_reading, zip(values, profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
+
+
+def decode_fields(
+    fields: tuple[str, ...], profile: Profile, data_format: DataFormat, *, lenient: bool = False
+) -> tuple[Reading, ...]:
     """Read the fields of all channels, channel 0 first; they are known to be all of some one data format."""
-    if (
-        data_format is DataFormat.ENGINEERING
-        and len(fields[0]) == _TEXT_WIDTH
-        and _NOT_NUMBERS.isdisjoint(fields)
-        and not profile.legacy_sentinels
-    ):  # nearly always, so it is done without a step in Python for each channel
-        return tuple(map(make_reading, zip(map(float, fields), profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
     found = []
-    for channel, (field, type_code) in enumerate(zip(fields, profile.type_codes, strict=True)):
+    for channel, (field, code) in enumerate(zip(fields, profile.type_codes, strict=True)):
         try:
-            found.append(decode_field(field, type_code, data_format, legacy=profile.legacy_sentinels))
+            found.append(decode_field(field, code, data_format, legacy=profile.legacy_sentinels, lenient=lenient))
         except DecodeError as error:
             name = f"the value of channel {channel}"
             raise DecodeError(error.fault, error.wire, field=name, allowed=error.allowed, section="1.11") from None
     return tuple(found)
 
 
-_NOT_NUMBERS = frozenset((*_TEXT_SENTINELS, _TEXT_BLANKS))
 _ALL_OK = repeat(Status.OK)
 make_reading = MethodType(tuple.__new__, Reading)
 """Of value, unit and status: without the step in Python that `Reading` takes."""
@@ -416,9 +338,9 @@ _TEXTS: dict[tuple[DataFormat, TypeCode], tuple[str, float, float]] = {}
 """How numbers are written as text, and from where to where."""
 for _code in TypeCode:
     _low, _high = _code.minimum, _code.maximum
-    _TEXTS[DataFormat.ENGINEERING, _code] = (f"%+0{_TEXT_WIDTH}.{_code.decimals}f", _low, _high)
+    _TEXTS[DataFormat.ENGINEERING, _code] = (f"%+0{TEXT_WIDTH}.{_code.decimals}f", _low, _high)
     _TEXTS[DataFormat.PERCENT, _code] = (
-        f"%+0{_TEXT_WIDTH}.2f", round(_percent(_low, _code), 2), round(_percent(_high, _code), 2),
+        f"%+0{TEXT_WIDTH}.2f", round(_percent(_low, _code), 2), round(_percent(_high, _code), 2),
     )  # fmt: skip
 
 _MINUS_ZEROS = frozenset(form % -0.0 for form, _, _ in _TEXTS.values())

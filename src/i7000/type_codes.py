@@ -27,8 +27,8 @@ class Unit(StrEnum):
 class TypeCode(IntEnum):
     """An analog input type, TT or rr of the manual.
 
-    Unit: `minimum`, `maximum` and `full_scale` are in `unit`.
-    Manual: 1.11 (tables), 3.5 (Modbus engineering scale), A.5 (hex); E45, E52, E53, E54.
+    Unit: `minimum`, `maximum`, `full_scale`, `lowest` and `highest` are in `unit`.
+    Manual: 1.11 (tables), 3.5 (Modbus engineering scale), A.5 (hex); E45, E52, E53, E54, E121.
     """
 
     unit: Unit
@@ -42,6 +42,10 @@ class TypeCode(IntEnum):
     """Whether a hex word is two's complement; the other two types run from 0000 at `minimum` to FFFF (E45)."""
     decimals: int
     """Digits after the point of the DCON engineering text: five digits in all."""
+    lowest: float
+    """The lowest reading that a module writes: a tenth of `full_scale` below the span (E121, assumption)."""
+    highest: float
+    """The highest one: a tenth of `full_scale` above the span."""
     modbus_decimals: int
     """Digits after the point of the Modbus engineering word: as in text, less one where 16 bits cannot hold it."""
 
@@ -118,6 +122,8 @@ for _code, (_unit, _minimum, _maximum, _thermocouple) in _FACTS.items():
     _code.full_scale = max(abs(_minimum), abs(_maximum))
     _code.signed_hex = _code not in (TypeCode.MA_4_20, TypeCode.MA_0_20)
     _code.decimals = _TEXT_DIGITS - len(str(int(_code.full_scale)))
+    _code.lowest = round(_minimum - _code.full_scale / 10, _code.decimals)
+    _code.highest = round(_maximum + _code.full_scale / 10, _code.decimals)
     _code.modbus_decimals = _code.decimals - int(_code.full_scale * 10**_code.decimals > _INT16_MAX)
 
 _MEMBERS: dict[int, TypeCode] = {member.value: member for member in TypeCode}

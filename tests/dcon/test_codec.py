@@ -132,7 +132,9 @@ def test_mixed_types_are_announced_by_ff_where_they_are_possible() -> None:
         (dcon.SetModuleName, (1, "é"), "name"),
         (dcon.SetModuleName, (1, "a#b"), "name"),
         (dcon.SetModuleName, (1, b"7019"), "name"),
-        (dcon.ModuleName, (1, "A" * 251), "name"),
+        (dcon.ModuleName, (1, "7018ABC"), "name"),
+        (dcon.ModuleName, (1, "0506"), "name"),
+        (dcon.FirmwareVersion, (1, "B305"), "version"),
         (dcon.FirmwareVersion, (1, ""), "version"),
         (dcon.SetProtocol, (1, 1), "protocol"),
         (dcon.SetCjcUpdate, (1, 3), "update"),
@@ -260,7 +262,8 @@ def test_a_negative_mask_has_no_channels() -> None:
         ),
         (dcon.ReadSynchronizedData(0x01), Profile(Model.M_7019Z, checksum=True), 77),
         (dcon.ReadChannelMask(0x01), Profile(Model.M_7017Z, single_ended=True), 10),
-        (dcon.ReadModuleName(0x01), I_7017, 254),
+        (dcon.ReadModuleName(0x01), I_7017, 10),
+        (dcon.ReadFirmwareVersion(0x01), I_7017, 9),
     ],
     ids=repr,
 )
@@ -288,6 +291,31 @@ def test_a_message_is_shown_with_its_addresses_in_hex() -> None:
     assert repr(dcon.ProtocolSetting(1, modbus_supported=True, protocol=Protocol.DCON)).startswith(
         "ProtocolSetting(address=0x01, "
     )
+
+
+@pytest.mark.parametrize("model", Model)
+def test_a_number_of_a_model_is_a_name(model: Model) -> None:
+    number = (model.series + model.suffix.replace("-", "")).upper()[:6]
+
+    for name in (number, model.series):
+        told = dcon.decode_response(f"!01{name}\r".encode(), dcon.ReadModuleName(0x01), Profile(model))
+        assert told == dcon.ModuleName(0x01, name)
+
+
+@pytest.mark.parametrize("name", ["0506", "A2.0", "+0010"])
+def test_a_name_that_could_not_be_read_back_is_not_sent_and_not_taken(name: str) -> None:
+    with pytest.raises(EncodeError, match="a name that is the text of no other answer, manual"):
+        dcon.encode(dcon.SetModuleName(0x01, name), I_7017)
+
+    assert dcon.decode_command(f"~01O{name}\r".encode(), I_7017) == dcon.SetModuleName(0x01, name)
+
+
+@pytest.mark.parametrize(("frame", "fault", "offset"), [(b"~*1\r", Fault.CHARACTER, 2), (b"#1*\r", Fault.CHARACTER, 2)])
+def test_a_damaged_broadcast_is_held_against_the_broadcast(frame: bytes, fault: Fault, offset: int) -> None:
+    with pytest.raises(DecodeError) as caught:
+        dcon.decode_command(frame, M_7019R)
+
+    assert (fault, offset) == (caught.value.fault, caught.value.offset)
 
 
 # --- readings ---------------------------------------------------------------------------------------------------------
@@ -370,6 +398,58 @@ def test_a_reading_needs_a_channel_that_is_there(channel: int) -> None:
 def test_readings_of_another_data_format_are_refused(values: tuple[str, ...]) -> None:
     with pytest.raises(DecodeError, match="number in the value of channel 0"):
         dcon.readings(dcon.AnalogInputs(values), I_7017)
+
+
+MIXED_TYPES = evolve(M_7019R, type_codes=(TypeCode.V_10,) * 7 + (TypeCode.K,))
+
+
+@pytest.mark.parametrize(
+    ("profile", "values", "channel"),
+    [
+        (I_7017, ("+0762.2",) + ("+05.000",) * 7, 0),
+        (I_7017, ("+05.000",) * 7 + ("+11.001",), 7),
+        (I_7017, ("+05.000",) * 3 + ("-11.001",) + ("+05.000",) * 4, 3),
+        (I_7017, ("+05.000",) * 7 + ("+9999",), 7),
+        (evolve(I_7017, data_format=DataFormat.PERCENT), ("+110.01",) * 8, 0),
+        (MIXED_TYPES, ("+05.000",) * 8, 7),
+        (MIXED_TYPES, ("+05.000",) * 6 + ("+12.000", "+0025.1"), 6),
+    ],
+)
+def test_a_reading_that_its_type_cannot_have_is_refused(
+    profile: Profile, values: tuple[str, ...], channel: int
+) -> None:
+    with pytest.raises(DecodeError, match=f"number in the value of channel {channel} ") as caught:
+        dcon.readings(dcon.AnalogInputs(values), profile)
+
+    assert (caught.value.fault, caught.value.wire) == (Fault.NUMBER, values[channel].encode())
+
+
+def test_readings_beyond_the_range_are_those_of_the_module() -> None:
+    values = ("+11.000", "-11.000", "+10.001", "+00.000", "+9999.9", "-9999.9", "       ", "-00.001")
+
+    told = dcon.readings(dcon.AnalogInputs(values), I_7017)
+
+    assert [reading.value for reading in told] == [11.0, -11.0, 10.001, 0.0, None, None, None, -0.001]
+
+
+def test_a_lenient_caller_is_told_what_was_sent() -> None:
+    report = dcon.AnalogInputs(("+0762.2",) + ("+05.000",) * 7)
+
+    assert [reading.value for reading in dcon.readings(report, I_7017, lenient=True)] == [762.2] + [5.0] * 7
+    assert dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017, lenient=True) == Reading(762.2, Unit.VOLT)
+    with pytest.raises(DecodeError, match="number in value"):
+        dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017)
+
+
+def test_a_lenient_caller_is_told_no_text_of_other_firmware() -> None:
+    with pytest.raises(DecodeError, match="number in the value of channel 7"):
+        dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+9999",)), I_7017, lenient=True)
+
+
+def test_channels_of_several_types_are_read_each_by_its_own() -> None:
+    told = dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+0025.1",)), MIXED_TYPES)
+
+    assert [(reading.value, reading.unit) for reading in told[6:]] == [(5.0, Unit.VOLT), (25.1, Unit.CELSIUS)]
 
 
 def test_hex_readings_are_hex_whatever_the_data_format_is() -> None:

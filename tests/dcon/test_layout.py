@@ -32,3 +32,25 @@ def test_a_name_with_a_leading_character_is_refused() -> None:
         dcon.decode_response(b"!0170#18\r", dcon.ReadModuleName(0x01), Profile(Model.I_7018))
 
     assert caught.value.fault is Fault.CHARACTER
+
+
+@pytest.mark.parametrize(
+    ("digits", "fault", "offset"),
+    [
+        ("+-000", Fault.CHARACTER, 1),
+        ("+000+", Fault.CHARACTER, 4),
+        ("-0_10", Fault.CHARACTER, 2),
+        ("+ 010", Fault.CHARACTER, 1),
+        ("+00g0", Fault.CHARACTER, 3),
+        ("00+10", Fault.NUMBER, 0),
+    ],
+)
+def test_an_offset_is_a_sign_and_four_digits(digits: str, fault: Fault, offset: int) -> None:
+    profile = Profile(Model.I_7018)
+    with pytest.raises(DecodeError) as in_command:
+        dcon.decode_command(f"$019{digits}\r".encode(), profile)
+    with pytest.raises(DecodeError) as in_response:
+        dcon.decode_response(f"!01{digits}\r".encode(), dcon.ReadCjcOffset(0x01), profile)
+
+    assert (fault, len("$019") + offset) == (in_command.value.fault, in_command.value.offset)
+    assert (fault, len("!01") + offset) == (in_response.value.fault, in_response.value.offset)

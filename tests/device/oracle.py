@@ -366,11 +366,19 @@ def set_cjc_offset(it: Oracle, sign: str, *digits: str) -> Answer:
 
 @answers("2.33", "~", "O([ -~]{1,6})")
 def set_name(it: Oracle, name: str) -> Answer:
-    """Set the name; a leading character in it makes it no name (E102)."""
+    """Set the name; a leading character in it makes it no name (E102); what looks like data is refused (E122)."""
     if set(name) & set("%#$~@!>?"):
         return None
-    it.name = name
-    return True
+    number = name[:4] in ("7017", "7018", "7019")
+    digits = len(name) if re.fullmatch("[0-9A-F]*", name) else 0
+    data = (
+        (digits in (2, 4, 6) and not number)
+        or (digits == 3 and name[0] in "01")
+        or name in ("0", "1", "2")
+        or re.fullmatch("[+-][0-9A-F]{4}|C[0-9A-F][0-9A-F]?R[0-9A-F][0-9A-F]|[A-Z][0-9][.][0-9][0-9]?", name)
+    )
+    it.name = it.name if data else name
+    return not data
 
 
 def set_soft_timeout(it: Oracle, seconds: int) -> bool:

@@ -438,7 +438,7 @@ def test_what_was_sampled_stays_as_it_was_read_whatever_is_set_since(command: st
 def test_states_are_values() -> None:
     module = bench(Model.I_7018)
     before, copied = module.state, evolve(module.state)
-    module.say("~01O1")
+    module.say("~01OA")
 
     assert before == copied
     assert module.state != before

@@ -309,6 +309,14 @@ def test_the_programs_print_readings_or_what_else_came_of_it(
     assert (declined, capsys.readouterr().out) == (1, DECLINED)
 
 
+def test_readings_of_another_type_than_was_told_are_not_printed_as_values(capsys: pytest.CaptureFixture[str]) -> None:
+    with running(open_pty, *MODULES) as here:
+        code = sync_driver.main([here.place, "--model", "M-7019R", "--address", "01", "--type", "V_10", "--checksum"])
+
+    assert code == 1
+    assert "number in the value of channel 0 at byte 0 of b'+0025.1'" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("name", ["i7000.examples.sync_driver", "i7000.examples.async_driver"])
 def test_the_programs_can_be_run(
     name: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

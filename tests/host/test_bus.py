@@ -127,7 +127,7 @@ DEADLINES: list[tuple[AnyCommand, Profile, float]] = [
     (READ, SEALED, (7 + 8) * CHARACTER + 0.1),
     (INPUTS, M7019, (4 + 58) * CHARACTER + 0.1),
     (INPUTS, Profile(Model.M_7017Z, single_ended=True), (4 + 142) * CHARACTER + 0.1),
-    (dcon.ReadModuleName(0x01), M7019, (5 + 256 - 2) * CHARACTER + 0.1),
+    (dcon.ReadModuleName(0x01), M7019, (5 + 10) * CHARACTER + 0.1),
     (dcon.ReloadDefaultCalibration(0x01), M7019, (6 + 4) * CHARACTER + 0.1 + 3),
     (dcon.CalibrateChannelZero(0x01, 0), OLD, (7 + 4) * CHARACTER + 0.1 + 16),
     (dcon.CalibrateChannelZero(0x01, 0), M7019, (7 + 4) * CHARACTER + 0.1),

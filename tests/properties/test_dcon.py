@@ -9,7 +9,9 @@ from attrs import evolve, fields
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from i7000 import DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
+from i7000 import DataFormat, DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
+from i7000.dcon.names import is_name
+from i7000.readings import decode_field
 from i7000.strategies import addresses, profiles, readings
 from i7000.strategies.dcon import (
     DAMAGES,
@@ -23,6 +25,7 @@ from i7000.strategies.dcon import (
     exchanges,
     frames,
     messages,
+    near_misses,
     profiles_with,
     streams,
 )
@@ -107,12 +110,15 @@ def test_a_frame_that_is_read_is_written_as_it_was(case: tuple[Exchange, Damage]
     exchange, damage = case
     wire = damage.wire
     message = decoded(decode, wire, exchange)
-    if isinstance(message, DecodeError):
-        return
-    if isinstance(message, dcon.CjcOffset | dcon.SetCjcOffset):  # -0000 is read as 0
-        assume(b"-0000" not in wire)
 
-    assert wire == dcon.encode(message, exchange.profile, force=True)
+    assert isinstance(message, DecodeError) or is_written_as_read(message, wire, exchange.profile)
+
+
+def is_written_as_read(message: dcon.Message, wire: bytes, profile: Profile) -> bool:
+    """Whether the bytes that gave a message are those that it gives; the minus of a zero is lost."""
+    offset = isinstance(message, dcon.CjcOffset | dcon.SetCjcOffset)
+    minus_zero = b"-0000" if offset else b"-0000.0" if isinstance(message, dcon.CjcTemperature) else None
+    return (minus_zero is not None and minus_zero in wire) or wire == dcon.encode(message, profile, force=True)
 
 
 def test_minus_zero_is_the_one_offset_that_is_written_otherwise_than_it_was_read() -> None:
@@ -137,6 +143,35 @@ def test_readings_go_through_a_report_unchanged(data: st.DataObject) -> None:
     )
 
 
+@given(exchanges(dcon.ReadAnalogInputs, dcon.ReadAnalogInputsHex, dcon.ReadAnalogInput, dcon.ReadSynchronizedData))
+def test_what_a_module_answers_has_readings(exchange: Exchange) -> None:
+    response, profile = exchange.response, exchange.profile
+    assume(profile.type_codes and not isinstance(response, dcon.Refused))
+
+    if isinstance(response, dcon.AnalogInput):
+        assert isinstance(exchange.command, dcon.ReadAnalogInput)
+        assert dcon.reading(response, exchange.command.channel, profile).unit is not None
+    else:
+        assert isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData)
+        assert profile.units == tuple(reading.unit for reading in dcon.readings(response, profile))
+
+
+@given(messages(dcon.AnalogInputs) | messages(dcon.AnalogInputsHex), profiles(known_types=True))
+def test_readings_are_those_of_the_fields_one_by_one(
+    report: dcon.AnalogInputs | dcon.AnalogInputsHex, profile: Profile
+) -> None:
+    assume(len(report.values) == profile.channels)
+    data_format = DataFormat.HEX if isinstance(report, dcon.AnalogInputsHex) else profile.data_format
+    fields = zip(report.values, profile.type_codes, strict=True)
+    try:
+        each = tuple(decode_field(it, code, data_format, legacy=profile.legacy_sentinels) for it, code in fields)
+    except DecodeError:
+        with pytest.raises(DecodeError):
+            dcon.readings(report, profile)
+    else:
+        assert each == dcon.readings(report, profile)
+
+
 # --- totality: a value or the package's own error ---------------------------------------------------------------------
 
 
@@ -158,6 +193,20 @@ def test_a_frame_damaged_twice_is_a_message_or_a_decode_error(
     wire = data.draw(damaged(once.wire)).wire
 
     assert isinstance(decoded(decode, wire, exchange), dcon.Message | DecodeError)
+
+
+@each_command
+@FEW
+@given(data=st.data())
+def test_a_character_of_a_field_in_another_place_is_a_message_or_a_decode_error(
+    kind: type[dcon.Command[Any]], data: st.DataObject
+) -> None:
+    exchange = data.draw(exchanges(kind))
+
+    for frame in (exchange.command_wire, exchange.response_wire):
+        for wire in near_misses(frame, checksum=exchange.profile.checksum):
+            message = decoded(decode, wire, exchange)
+            assert isinstance(message, DecodeError) or is_written_as_read(message, wire, exchange.profile)
 
 
 @given(ANY_BYTES | damages().map(lambda case: case[1].wire))
@@ -365,6 +414,36 @@ def test_the_type_of_another_channel_is_refused(exchange: Exchange) -> None:
     assert caught.value.fault is Fault.VALUE
 
 
+@pytest.mark.parametrize("kind", [kind for kind in COMMANDS if kind.response.syntax.startswith("!")])
+@FEW
+@given(data=st.data())
+def test_no_answer_to_another_command_is_a_name_or_a_version(
+    kind: type[dcon.Command[Any]], data: st.DataObject
+) -> None:
+    exchange = data.draw(exchanges(kind))
+    response = exchange.response
+    assume(not isinstance(response, dcon.Refused))
+    address: int = response.address  # type: ignore[attr-defined] # all of these have one
+    number = re.search(rb"^!..701[789]", exchange.response_wire)  # a mask that is the number of a series
+
+    name = decoded(dcon.decode_response, exchange.response_wire, dcon.ReadModuleName(address), exchange.profile)
+    version = decoded(dcon.decode_response, exchange.response_wire, dcon.ReadFirmwareVersion(address), exchange.profile)
+
+    assert isinstance(name, dcon.ModuleName) == isinstance(response, dcon.ModuleName) or number
+    assert isinstance(version, dcon.FirmwareVersion) == isinstance(response, dcon.FirmwareVersion)
+
+
+@given(st.from_regex(r"[0-9A-F+\-CR.]{1,6}", fullmatch=True))
+def test_what_is_no_name_is_another_answer(text: str) -> None:
+    assume(not re.match("701[789]", text))
+    frame = f"!01{text}\r".encode()
+    assume(frame[-3:-1] != b"%02X" % (sum(frame[:-3]) & 0xFF))
+    others = decoded(dcon.response_candidates, frame)
+
+    told = () if isinstance(others, DecodeError) else others
+    assert is_name(text) == all(isinstance(response, dcon.ModuleName) for response in told)
+
+
 # --- what the profile and the command tell beforehand -----------------------------------------------------------------
 
 
@@ -397,8 +476,10 @@ def test_the_longest_response_is_told_exactly_where_its_length_is_fixed(
 
     told = dcon.longest_response(exchange.command, exchange.profile)
 
-    if kind in (dcon.ReadFirmwareVersion, dcon.ReadModuleName):
-        assert told == dcon.LONGEST_FRAME - 2 * (not exchange.profile.checksum)
+    if isinstance(exchange.response, dcon.FirmwareVersion):
+        assert len(exchange.response.version) - 5 == len(exchange.response_wire) - told
+    elif isinstance(exchange.response, dcon.ModuleName):
+        assert len(exchange.response.name) - 6 == len(exchange.response_wire) - told
     else:
         assert len(exchange.response_wire) == told
 

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import DataFormat, DecodeError, EncodeError, ModbusDataFormat, Reading, Status, TypeCode, Unit
+from i7000.fields import are_fields, is_field
 from i7000.readings import (
-    are_fields,
     decode_engineering_word,
     decode_field,
     decode_word,
@@ -18,7 +18,6 @@ from i7000.readings import (
     encode_field,
     encode_fields,
     encode_word,
-    is_field,
 )
 from i7000.strategies import readings, word_readings
 

@@ -112,7 +112,7 @@ class ChannelReading:
     channel: int | None
     text: str
     status: Status | None
-    """None: a number of a type that is not known."""
+    """None: a number of an unknown type, or one that no module of the type writes."""
     type_code: TypeCode | None
     value: float | None = None
     unit: Unit | None = None
@@ -130,6 +130,8 @@ class Meaning:
     """Those it was read with."""
     assumed: tuple[str, ...]
     """What has its factory default because it was not told: ``type``, ``format``."""
+    misfit: DecodeError | None = None
+    """Why the first reading without a value cannot be one of its type."""
 
     @property
     def models(self) -> tuple[Model, ...]:
@@ -203,8 +205,8 @@ _Found = tuple[dcon.Message, dcon.AnyCommand | None]
 def meanings(frame: bytes, asked: bytes | None, known: Known) -> tuple[Meaning, ...]:
     r"""Tell what a frame can mean, as the response to `asked` if that is given.
 
-    Special: factory defaults are tried first. Fields whose number of decimals is not that of their type are believed
-        only if no other data format fits.
+    Special: factory defaults are tried first. A meaning with numbers that no module of their types writes is given,
+        as a misfit, only if no other type or data format fits.
     Errors: `DecodeError` if it means nothing.
 
     >>> [type(meaning.message).__name__ for meaning in meanings(b"$01A\r", None, Known())]
@@ -229,7 +231,7 @@ def meanings(frame: bytes, asked: bytes | None, known: Known) -> tuple[Meaning, 
 
 def _search(read: Callable[[Profile], Iterable[_Found]], known: Known) -> tuple[Meaning, ...]:
     faults: list[DecodeError] = []
-    odd: _Meanings = {}
+    misfits: _Meanings = {}
     for profiles in ((known.default,) if known.default else (), known.all):
         found: _Meanings = {}
         for profile in profiles:
@@ -239,26 +241,28 @@ def _search(read: Callable[[Profile], Iterable[_Found]], known: Known) -> tuple[
                 faults.append(fault)
                 continue
             for message, command in pairs:
-                readings = tuple(_readings(message, command, profile))
-                which = found if _decimals_agree(readings, profile) else odd
-                which.setdefault((message, command, readings), []).append(profile)
+                readings, misfit = _readings(message, command, profile)
+                which = misfits if misfit else found
+                which.setdefault((message, command, readings), ([], misfit))[0].append(profile)
         if found:
             return _sorted(found, known)
-    if odd:
-        return _sorted(odd, known)
+    if misfits:
+        return _sorted(misfits, known)
     raise faults[0]
 
 
-_Meanings = dict[tuple[dcon.Message, dcon.AnyCommand | None, tuple[ChannelReading, ...]], list[Profile]]
+_Meanings = dict[
+    tuple[dcon.Message, dcon.AnyCommand | None, tuple[ChannelReading, ...]], tuple[list[Profile], DecodeError | None]
+]
 
 
 def _sorted(found: _Meanings, known: Known) -> tuple[Meaning, ...]:
     unknown = [("type", known.types), ("format", known.data_format)]
     result = []
-    for (message, command, readings), profiles in found.items():
+    for (message, command, readings), (profiles, misfit) in found.items():
         by_default = readings and profiles == [known.default]
         assumed = tuple(name for name, value in unknown if value is None) if by_default else ()
-        result.append(Meaning(message, command, readings, tuple(profiles), assumed))
+        result.append(Meaning(message, command, readings, tuple(profiles), assumed, misfit))
     return tuple(sorted(result, key=_section))
 
 
@@ -287,30 +291,38 @@ def _responses(frame: bytes, profile: Profile) -> Iterator[_Found]:
         raise DecodeError(Fault.COMMAND, frame, 1, allowed="a response of chapter 2", section="2")
 
 
-def _readings(message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile) -> Iterator[ChannelReading]:
+def _readings(
+    message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile
+) -> tuple[tuple[ChannelReading, ...], DecodeError | None]:
+    """Read the fields of a report, and say why the first one that does not fit its type does not."""
     data_format = DataFormat.HEX if isinstance(message, dcon.AnalogInputsHex) else profile.data_format
     types = dict(enumerate(profile.type_codes))
     if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
-        fields: Iterable[tuple[int | None, str]] = enumerate(message.values)
+        fields: list[tuple[int | None, str]] = list(enumerate(message.values))
     elif isinstance(message, dcon.AnalogInput):
         fields = [(command.channel if isinstance(command, dcon.ReadAnalogInput) else None, message.value)]
     else:
-        return
+        return (), None
     uniform = profile.type_codes[0] if len(set(profile.type_codes)) == 1 else None
+    found = []
+    misfit = None
     for channel, text in fields:
         type_code = uniform if channel is None else types.get(channel)
-        reading = decode_field(text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels)
+        try:
+            reading = decode_field(
+                text,
+                type_code or TypeCode.V_10,
+                data_format,
+                legacy=profile.legacy_sentinels,
+                lenient=type_code is None,
+            )
+        except DecodeError as error:
+            misfit = misfit or error
+            found.append(ChannelReading(channel, text, None, type_code))
+            continue
         if type_code is not None:
-            yield ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit)
+            found.append(ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit))
         else:
             status = None if reading.status is Status.OK else reading.status
-            yield ChannelReading(channel, text, status, None)
-
-
-def _decimals_agree(readings: Iterable[ChannelReading], profile: Profile) -> bool:
-    """Whether numbers in engineering units have as many decimals as their types."""
-    return profile.data_format is not DataFormat.ENGINEERING or all(
-        len(reading.text.partition(".")[2]) == reading.type_code.decimals
-        for reading in readings
-        if reading.type_code is not None and reading.status is Status.OK and "." in reading.text
-    )
+            found.append(ChannelReading(channel, text, status, None))
+    return tuple(found), misfit

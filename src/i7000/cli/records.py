@@ -112,6 +112,9 @@ def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
         if asked and any(meaning.command for meaning in found):
             record["answers"] = asked.number
         asked = line if command else None
+        misfit = found[0].misfit  # of all or of none
+        if misfit:
+            record |= {"error": str(misfit), "fault": misfit.fault.value}
         candidates = [meaning_record(meaning) for meaning in found]
         yield record | (candidates[0] if len(candidates) == 1 else {"candidates": candidates})
 

@@ -125,7 +125,7 @@ def _readings(record: Record) -> Iterator[Text]:
         yield line
     for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
         yield _row("type", type_code_words(code))
-    if any(reading["status"] is None for reading in record["readings"]):
+    if any(reading["status"] is reading["type_code"] is None for reading in record["readings"]):
         yield _row("type", "not known: --type tells")
     if record["assumed"]:
         yield _row("assumed", f"the factory default of {' and '.join(record['assumed'])}")

@@ -74,7 +74,7 @@ from i7000.dcon.watchdog import (
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.models import AVAILABILITY, Firmware, Model, series
 from i7000.profile import LAST_LEGACY, Profile
-from i7000.readings import Reading, decode_field, decode_fields, encode_field, encode_fields
+from i7000.readings import Reading, decode_field, decode_fields, decode_numbers, encode_field, encode_fields
 from i7000.settings import DataFormat
 
 __all__ = [
@@ -330,12 +330,16 @@ _RESPONSES: tuple[type[Response], ...] = (
 # --- readings ---------------------------------------------------------------------------------------------------------
 
 
-def readings(response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile) -> tuple[Reading, ...]:
-    """Tell what the fields of a report mean, channel 0 first.
+def readings(
+    response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile, *, lenient: bool = False
+) -> tuple[Reading, ...]:
+    """Return what the fields of a report mean, channel 0 first.
 
-    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, or types
-        that are not known.
-    Manual: 1.11, A.5.
+    Special: with `lenient`, numbers that no module of the type writes are read too: for modules that differ from the
+        manual.
+    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, types
+        that are not known, or a number whose decimals or size are not those of its type.
+    Manual: 1.11, A.5; E121.
 
     >>> from i7000 import TypeCode
     >>> report = AnalogInputs(("+025.12",) * 7 + ("-9999.9",))
@@ -343,23 +347,26 @@ def readings(response: AnalogInputs | AnalogInputsHex | SynchronizedData, profil
     [25.12, 25.12, 25.12, 25.12, 25.12, 25.12, 25.12, None]
     """
     values = response.values
+    in_hex = isinstance(response, AnalogInputsHex)
+    found = None if lenient or in_hex else decode_numbers(values, profile)
+    if found is not None:
+        return found
     if len(values) != len(profile.type_codes):
         raise _unknown_types("".join(values), profile)
-    return decode_fields(
-        values, profile, DataFormat.HEX if isinstance(response, AnalogInputsHex) else profile.data_format
-    )
+    return decode_fields(values, profile, DataFormat.HEX if in_hex else profile.data_format, lenient=lenient)
 
 
-def reading(response: AnalogInput, channel: int, profile: Profile) -> Reading:
-    """Tell what the field of one channel means.
+def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: bool = False) -> Reading:
+    """Return what the field of one channel means.
 
+    Special: `lenient` as for `readings`.
     Errors: `DecodeError` as for `readings`.
-    Manual: 1.11, A.5.
+    Manual: 1.11, A.5; E121.
     """
     types = profile.type_codes[channel : channel + 1]
     if not types:
         raise _unknown_types(response.value, profile)
-    return decode_field(response.value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
+    return decode_field(response.value, types[0], profile.data_format, legacy=profile.legacy_sentinels, lenient=lenient)
 
 
 def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
@@ -400,8 +407,6 @@ def _unknown_types(data: str, profile: Profile) -> DecodeError:
 
 def longest_response(command: AnyCommand, profile: Profile) -> int:
     """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
-
-    Special: the manual bounds neither the version that is told nor the name; for these, what a frame can hold.
 
     >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
     58

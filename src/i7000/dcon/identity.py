@@ -7,6 +7,7 @@ from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
+from i7000.dcon.names import is_name
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -33,8 +34,8 @@ class FirmwareVersion(Response):
     """Tell the firmware version.
 
     Wire: ``!AA(Data)``
-    Shape: `version` as sent; `i7000.Firmware` reads the form that the manual shows, ``A2.0``.
-    Manual: 2.23; E67, E102.
+    Shape: `version` as sent: a letter, a digit, a point, one or two digits, as ``A2.0``; `i7000.Firmware` orders them.
+    Manual: 2.23; E67, E122.
     """
 
     syntax = "!AA(Data)"
@@ -42,7 +43,7 @@ class FirmwareVersion(Response):
     title = "firmware version"
 
     address: layout.Address
-    version: layout.Text
+    version: layout.Version
 
 
 class ReadFirmwareVersion(Command[FirmwareVersion]):
@@ -62,8 +63,9 @@ class ModuleName(Response):
     """Tell the name of the module.
 
     Wire: ``!AA(Name)``
-    Shape: printable ASCII without the leading characters of messages (assumption).
-    Manual: 2.24; E6, E102.
+    Shape: 1 to 6 characters, printable ASCII without the leading characters of messages, and not the text of another
+        answer, as ``0506`` or ``A2.0`` (assumption).
+    Manual: 2.24; E6, E102, E122.
     """
 
     syntax = "!AA(Name)"
@@ -92,7 +94,8 @@ class SetModuleName(Command[Acknowledged]):
 
     Wire: ``~AAO(Name)`` -> ``!AA``
     Shape: 1 to 6 characters, printable ASCII without the leading characters of messages (assumption).
-    Manual: 2.33; E102.
+    Errors: `EncodeError` for a name that could not be read back: one that is the text of another answer (assumption).
+    Manual: 2.33; E102, E122.
     """
 
     syntax = "~AAO(Name)"
@@ -100,6 +103,11 @@ class SetModuleName(Command[Acknowledged]):
     title = "module name"
 
     name: layout.NewName
+
+    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
+        """Refuse a name that is the text of another answer."""
+        if not is_name(self.name):
+            raise EncodeError("name", self.name, "a name that is the text of no other answer", self.section)
 
 
 @frozen

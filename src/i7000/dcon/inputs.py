@@ -11,9 +11,9 @@ from attrs import field
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Message, Response, check_channel, check_mask
 from i7000.errors import EncodeError
+from i7000.fields import is_field
 from i7000.message import frozen
 from i7000.profile import Profile
-from i7000.readings import is_field
 from i7000.settings import DataFormat, channels_of, mask_of
 
 __all__ = [

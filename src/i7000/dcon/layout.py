@@ -13,11 +13,11 @@ from typing import Annotated, Any, NamedTuple
 
 from attrs import fields
 
-from i7000.dcon.frame import LONGEST_FRAME
+from i7000.dcon.names import CHARACTERS, is_name, is_version
 from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.fields import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.frozen import frozen
 from i7000.profile import Profile
-from i7000.readings import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
 from i7000.type_codes import TypeCode
 
@@ -51,6 +51,8 @@ class Part(NamedTuple):
     """The most characters of a part that takes all that are left."""
     characters: str = _DIGITS
     """What its characters can be, where a wrong one is a fault of its own."""
+    signed: bool = False
+    """Whether a sign stands before its `characters`; `parse` judges the sign itself."""
 
 
 _PAIRS = {f"{byte:02X}": byte for byte in range(256)}
@@ -118,7 +120,7 @@ def _offset(notation: str) -> Part:
 
     return Part(
         notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
-        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, characters="+-" + _DIGITS,
+        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, signed=True,
     )  # fmt: skip
 
 
@@ -139,29 +141,33 @@ def _temperature(notation: str) -> Part:
     )  # fmt: skip
 
 
-_NAME_CHARACTERS = frozenset(map(chr, range(0x20, 0x7F))) - frozenset("%#$~@!>?")
+def _text(
+    notation: str, lengths: tuple[int, int], allowed: str, is_valid: Callable[[str], bool] = lambda _: True
+) -> Part:
+    """Characters to the end: those of names, in a form of their own (E102, E122)."""
+    shortest, longest = lengths
 
-
-_LONGEST_TEXT = LONGEST_FRAME - len("!AAFF\r")
-
-
-def _text(notation: str, longest: int = _LONGEST_TEXT) -> Part:
-    """Characters to the end: all of ASCII that is printed, but for the leading characters (E102)."""
-
-    def accepts(value: object) -> bool:
-        return isinstance(value, str) and 0 < len(value) <= longest and _NAME_CHARACTERS.issuperset(value)
+    def accepts(value: Any) -> bool:  # noqa: ANN401
+        short = isinstance(value, str) and shortest <= len(value) <= longest
+        return short and CHARACTERS.issuperset(value) and is_valid(value)
 
     def parse(text: str) -> str:
-        if len(text) > longest:
-            raise DecodeError(Fault.LENGTH, text.encode(), longest, allowed=f"{longest} characters")
-        if not _NAME_CHARACTERS.issuperset(text):
+        if not shortest <= len(text) <= longest:
+            raise DecodeError(Fault.LENGTH, text.encode(), min(len(text), longest), allowed=allowed)
+        if not CHARACTERS.issuperset(text):
             raise KeyError(text)
+        if not is_valid(text):
+            raise DecodeError(Fault.VALUE, text.encode(), allowed=allowed)
         return text
 
     return Part(
-        notation, f"1 to {longest} characters, printable ASCII without % # $ ~ @ ! > ?", "%b", "{}.encode()",
-        accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(_NAME_CHARACTERS)),
+        notation, allowed, "%b", "{}.encode()",
+        accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(CHARACTERS)),
     )  # fmt: skip
+
+
+_NAME_LENGTHS = (1, 6)
+_NAME = "1 to 6 characters, printable ASCII without % # $ ~ @ ! > ?"
 
 
 def _longest_field(data_format: DataFormat, profile: Profile) -> int:
@@ -219,9 +225,9 @@ DiagnosticMask = Annotated[int, _mask("NN")]
 Offset = Annotated[int, _offset("SNNNN")]
 OffsetData = Annotated[int, _offset("(Data)")]
 Temperature = Annotated[float, _temperature("(Data)")]
-Text = Annotated[str, _text("(Data)")]
-Name = Annotated[str, _text("(Name)")]
-NewName = Annotated[str, _text("(Name)", longest=6)]
+Version = Annotated[str, _text("(Data)", (4, 5), "a letter, a digit, a point, one or two digits", is_version)]
+Name = Annotated[str, _text("(Name)", _NAME_LENGTHS, f"{_NAME}; the text of no other answer", is_name)]
+NewName = Annotated[str, _text("(Name)", _NAME_LENGTHS, _NAME)]
 Values = Annotated[tuple[str, ...], _values("(Data)")]
 HexValues = Annotated[tuple[str, ...], _values("(Data)", DataFormat.HEX)]
 Value = Annotated[str, _value("(Data)")]
@@ -338,8 +344,8 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
     except KeyError:
         if part.fault is not Fault.CHARACTER:
             return DecodeError(part.fault, text.encode(), allowed=part.allowed)
-        at = next(at for at, character in enumerate(text) if character not in part.characters)
-        allowed = "0-9 A-F" if part.characters.endswith(_DIGITS) else part.allowed
+        at = next(at for at in range(part.signed, len(text)) if text[at] not in part.characters)
+        allowed = "0-9 A-F" if part.characters == _DIGITS else part.allowed
         return DecodeError(part.fault, text.encode(), at, allowed=allowed)
     except DecodeError as error:
         return error

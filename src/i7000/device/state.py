@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
-from i7000.dcon import SetModuleName
+from i7000.dcon import ModuleName
 from i7000.device.logger import Log
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
@@ -72,7 +72,7 @@ def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: object) -> 
 
 
 def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
-    SetModuleName(0, name)  # which refuses what no module can be named
+    ModuleName(0, name)  # which refuses what no module can be named
 
 
 def _check_protocol(eeprom: "Eeprom", attribute: "Attribute[Any]", protocol: Protocol) -> None:

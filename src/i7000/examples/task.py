@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import serial
 from attrs import evolve, frozen
 
-from i7000 import BaudRate, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
+from i7000 import BaudRate, DecodeError, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
 from i7000.host import Answered, Bus, Outcome
 from i7000_cli import program
 
@@ -32,7 +32,12 @@ class Task:
         if not isinstance(outcome, Answered):
             print(outcome)  # noqa: T201 - what a program prints
             return 1
-        for channel, reading in enumerate(self._readings(outcome.response)):
+        try:
+            readings = self._readings(outcome.response)
+        except DecodeError as error:  # of another module than was told
+            print(error)  # noqa: T201
+            return 1
+        for channel, reading in enumerate(readings):
             print(channel, reading.value, reading.unit, reading.status.value)  # noqa: T201
         return 0
 

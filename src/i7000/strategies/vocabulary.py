@@ -124,13 +124,18 @@ def report_settings(profile: Profile | None = None) -> SearchStrategy[ReportSett
 def readings(type_code: TypeCode, data_format: DataFormat) -> SearchStrategy[Reading]:
     """Make readings that a DCON field says exactly: on the counts of the format, out of range, disabled."""
     if data_format is DataFormat.HEX:
-        return _some_of(Status.DISABLED, word_readings(type_code, ModbusDataFormat.HEX))
+        words = word_readings(type_code, ModbusDataFormat.HEX)
+        return _some_of(Status.DISABLED, words.filter(lambda reading: _is_written(reading, type_code)))
     low, high, decimals = text_counts(type_code, data_format)
     numbers = st.integers(low, high).map(
         lambda counts: decode_field(f"{counts / 10**decimals:+07.{decimals}f}", type_code, data_format)
     )
     disabled = _some_of(Status.DISABLED, numbers)
     return _some_of(Status.OVER_RANGE, _some_of(Status.UNDER_RANGE, disabled))
+
+
+def _is_written(reading: Reading, type_code: TypeCode) -> bool:
+    return reading.value is None or type_code.lowest <= reading.value <= type_code.highest
 
 
 def _some_of(status: Status, others: SearchStrategy[Reading]) -> SearchStrategy[Reading]:

@@ -1,6 +1,6 @@
 """Strategies for DCON: messages and whole exchanges, damaged frames, streams of frames and noise."""
 
-from i7000.strategies.dcon.frames import DAMAGES, Damage, Stream, chunkings, damaged, frames, streams
+from i7000.strategies.dcon.frames import DAMAGES, Damage, Stream, chunkings, damaged, frames, near_misses, streams
 from i7000.strategies.dcon.messages import (
     Exchange,
     any_commands,
@@ -25,6 +25,7 @@ __all__ = [
     "exchanges",
     "frames",
     "messages",
+    "near_misses",
     "profiles_with",
     "responses",
     "streams",

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from i7000 import Fault, Noise
-from i7000.dcon import LONGEST_FRAME, seal
+from i7000.dcon import LONGEST_FRAME, seal, unseal
 from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS
 from i7000.strategies.wires import Damage, Damages, chunkings, damaged_by, each_byte, flipped_bits
 
-__all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "streams"]
+__all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "near_misses", "streams"]
 
 # --- damage -----------------------------------------------------------------------------------------------------------
 
@@ -44,6 +44,19 @@ DAMAGES: Damages = {
     "glued": lambda frame: iter((frame + frame,)),
 }
 """What can happen to a frame, by its label: every one of the wires that may come of it."""
+
+_OF_FIELDS = b"+-. 09AF" + b"Ga_"
+"""What fields are made of, and what a lax parser of numbers takes as well."""
+
+
+def near_misses(frame: bytes, *, checksum: bool) -> Iterator[bytes]:
+    """Yield frames with one character of a field in a place where another stood, each with its right checksum."""
+    body = unseal(frame, checksum=checksum)
+    for at in range(1, len(body)):
+        for character in _OF_FIELDS:
+            if character != body[at]:
+                yield seal(body[:at] + bytes((character,)) + body[at + 1 :], checksum=checksum)
+
 
 # --- streams ----------------------------------------------------------------------------------------------------------
 

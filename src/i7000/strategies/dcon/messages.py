@@ -7,6 +7,7 @@ is held to take is asked of the message's own `check`.
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
 from functools import cache
+from string import ascii_uppercase
 from typing import Any, TypeVar, cast, get_args
 
 from attrs import Attribute, fields, frozen
@@ -16,11 +17,12 @@ from hypothesis.strategies import SearchStrategy
 from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Model, Profile, ReportSettings, TypeCode
 from i7000.dcon import (
     COMMANDS,
-    LONGEST_FRAME,
     AnyCommand,
     Broadcast,
     Command,
+    FirmwareVersion,
     Message,
+    ReadAnalogInput,
     ReadConfiguration,
     Refused,
     Response,
@@ -30,8 +32,10 @@ from i7000.dcon import (
 from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
+from i7000.dcon.names import CHARACTERS
+from i7000.fields import FIELD_WIDTHS
 from i7000.models import AVAILABILITY
-from i7000.readings import FIELD_WIDTHS, encode_field
+from i7000.readings import encode_field
 from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
 
 __all__ = [
@@ -95,11 +99,14 @@ def _any_of(draw: st.DrawFn, kinds: Sequence[type[Message]], profile: Profile, *
 
 def responses(command: Command[R], profile: Profile) -> SearchStrategy[R | Refused]:
     """Make responses that `i7000.dcon.encode` takes for `profile`, and that answer `command`."""
-    repeated = {"address": st.just(command.answering_address)}
+    repeated: dict[str, SearchStrategy[Any]] = {"address": st.just(command.answering_address)}
     if isinstance(command, ReadConfiguration) and command.address == 0:
         repeated["address"] = addresses()  # asked in INIT mode, told the stored one
     if hasattr(command, "channel"):
         repeated["channel"] = st.just(command.channel)
+    if isinstance(command, ReadAnalogInput):
+        types = profile.type_codes[command.channel : command.channel + 1] or (None,)
+        repeated["value"] = channel_fields(profile.data_format, types[0], legacy=profile.legacy_sentinels)
     valid = _messages(command.response, profile, accepted=True, fixed=repeated)
     return cast("SearchStrategy[R | Refused]", valid | st.builds(Refused, st.just(command.address)))
 
@@ -146,23 +153,18 @@ def _part(  # noqa: PLR0911 - a table
         known = st.sampled_from((*supported_types(profile), MIXED))
         return known | st.integers(0, 0xFF).map(TypeCode.of) if free else known
     if part.longest and not part.contextual:
-        return st.text(_TEXT, min_size=1, max_size=_room(kind, part.longest(profile), profile))
+        return (_VERSIONS if kind is FirmwareVersion else _NAMES).filter(part.accepts)
     if part.longest:
         width = part.longest(profile) // (1 if origin is str else profile.channels)
         data_format = DataFormat.HEX if width == FIELD_WIDTHS[DataFormat.HEX] else profile.data_format
-        types = profile.type_codes or (None,) * profile.channels
+        types = (accepted and profile.type_codes) or (None,) * profile.channels
         values = tuple(channel_fields(data_format, code, legacy=profile.legacy_sentinels) for code in types)
         return st.one_of(tuple(dict.fromkeys(values))) if origin is str else st.tuples(*values)
     return addresses() if attribute.name in ("address", "new_address") else _number(part, profile, accepted=accepted)
 
 
-_TEXT = st.characters(codec="ascii", exclude_categories=["Cc"], exclude_characters="%#$~@!>?")
-
-
-def _room(kind: type[Message], longest: int, profile: Profile) -> int:
-    """Tell the characters that a text may have in a frame of this class."""
-    others = kind.layout.longest(profile) - longest + 2 * profile.checksum + 1
-    return min(longest, LONGEST_FRAME - others)
+_VERSIONS = st.builds("{}{}.{}".format, st.sampled_from(ascii_uppercase), st.integers(0, 9), st.integers(0, 99))
+_NAMES = st.text(st.sampled_from(sorted(CHARACTERS, key=lambda it: (not it.isalpha(), it))), min_size=1, max_size=6)
 
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
@@ -194,21 +196,21 @@ _LIMITS: dict[Part, Callable[[Profile], int]] = {
 def channel_fields(
     data_format: DataFormat, type_code: TypeCode | None = None, *, legacy: bool = False
 ) -> SearchStrategy[str]:
-    """Make fields of one channel as they are sent: any number, special texts, readings of a type."""
+    """Make fields of one channel as they are sent: special texts, and the readings of a type, or any number."""
     special = [" " * FIELD_WIDTHS[data_format], *(("+9999", "-0000") if legacy else ())]
-    if data_format is DataFormat.HEX:
+    if data_format is not DataFormat.HEX:
+        special += ["+9999.9", "-9999.9", "+999.99", "-999.99"]
+    if type_code is not None:
+        numbers = readings(type_code, data_format).map(lambda it: encode_field(it, type_code, data_format))
+    elif data_format is DataFormat.HEX:
         numbers = st.integers(0, 0xFFFF).map("{:04X}".format)
     else:
-        special += ["+9999.9", "-9999.9", "+999.99", "-999.99"]
         points = (3, 2, 4, 5) if data_format is DataFormat.ENGINEERING else (4,)
         forms = [(sign, point) for point in points for sign in "+-"]
         numbers = st.integers(0, len(forms) * 10**5 - 1).map(
             lambda n: _with_point(n // len(forms), *forms[n % len(forms)])
         )
-    found = numbers | st.sampled_from(special)
-    if type_code is None:
-        return found
-    return found | readings(type_code, data_format).map(lambda reading: encode_field(reading, type_code, data_format))
+    return numbers | st.sampled_from(special)
 
 
 def _with_point(digits: int, sign: str, point: int) -> str:

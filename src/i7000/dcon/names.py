@@ -1,0 +1,41 @@
+"""Names and firmware versions as text: which there can be, so that no other answer is taken for one (2.23, 2.24, 2.33).
+
+Laws: no version is a name; a name is no answer of another command with the same address, in whatever digits a model
+has it, but that the number of a series may be a mask of four digits (E122, an assumption).
+"""
+
+import re
+
+__all__ = ["CHARACTERS", "is_name", "is_version"]
+
+CHARACTERS = frozenset(map(chr, range(0x20, 0x7F))) - frozenset("%#$~@!>?")
+"""Printable ASCII without the leading characters of messages (E102)."""
+
+_VERSION = r"[A-Z][0-9]\.[0-9]{1,2}"
+_OTHER_ANSWER = rf"""(?x)
+    (?!701[789]) (?:[0-9A-F]{{4}} | [0-9A-F]{{6}})  # VV of 2.14, NN of 2.22, TTCCFF of 2.10
+  | [0-9A-F]{{2}}                                   # the same of 8 channels, SC of 2.25, SS of 2.36
+  | [01][0-9A-F]{{2}}                               # EVV of 2.38
+  | [0-2]                                           # i of 2.20, N of 2.29, 2.40 and 2.42
+  | [+-][0-9A-F]{{4}}                               # SNNNN of 2.17
+  | C[0-9A-F]{{1,2}}R[0-9A-F]{{2}}                  # CiRrr of 2.16
+  | {_VERSION}                                      # 2.23
+"""
+
+
+def is_version(text: str) -> bool:
+    """Whether a module can have this firmware version: a letter, a digit, a point, one or two digits.
+
+    >>> is_version("A2.0"), is_version("B305")
+    (True, False)
+    """
+    return re.fullmatch(_VERSION, text) is not None
+
+
+def is_name(text: str) -> bool:
+    """Whether this text is the name of a module and nothing else that a module answers.
+
+    >>> is_name("7018"), is_name("OVEN 2"), is_name("0506"), is_name("A2.0")
+    (True, True, False, False)
+    """
+    return re.fullmatch(_OTHER_ANSWER, text) is None
