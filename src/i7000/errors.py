@@ -47,7 +47,7 @@ class Fault(Enum):
     ECHO = "echo"
     """A response that does not repeat what its request said."""
     RESERVED = "reserved"
-    """A reserved byte or spare bit that is not zero."""
+    """A reserved byte or bit that is not zero."""
 
 
 class I7000Error(Exception):

@@ -298,6 +298,11 @@ def filled(pdu: str, fields: Record, channels: int) -> bytes:
     return found
 
 
+def without_padding(pdu: bytes, count: int) -> bytes:
+    """A PDU that ends with `count` bits, with its padding bits zero."""
+    return pdu[:-1] + bytes((pdu[-1] & 0xFF >> -count % 8,))
+
+
 @pytest.mark.parametrize("path", VECTORS)
 def test_a_wire_is_its_pdu_with_its_fields(path: Path) -> None:
     for vector in lint.records(lint.load(path)):

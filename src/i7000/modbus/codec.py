@@ -213,16 +213,13 @@ _READS_OF_BITS = (ReadCoils, ReadDiscreteInputs)
 
 
 def _held_against(request: Any, response: Any, frame: bytes, profile: Profile) -> Any:  # noqa: ANN401 - of any class
-    """Hold the number of items against the request, look at the bits that are reserved, and drop those to spare."""
+    """Check the number of items against the request and the reserved bits; drop padding bits (E120)."""
     if isinstance(request, _READS_OF_WORDS):
         if len(response.values) != request.count:
             raise _count_error(frame, 2 * request.count, request.section)
     elif isinstance(request, _READS_OF_BITS):
         if len(response.values) != request.count + 7 >> 3 << 3:
             raise _count_error(frame, request.count + 7 >> 3, request.section)
-        if any(response.values[request.count :]):
-            at, allowed = len(frame) - 3, "spare bits zero"
-            raise DecodeError(Fault.RESERVED, frame, at, field="values", allowed=allowed, section=request.section)
         return evolve(response, values=response.values[: request.count])
     elif request.sub_function in _WITH_RESERVED_BITS and response.reserved_bits(request, profile):
         allowed = "reserved bits zero"
