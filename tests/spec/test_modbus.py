@@ -312,6 +312,8 @@ def test_a_wire_is_its_pdu_with_its_fields(path: Path) -> None:
             sides = ["request"] if vector["outcome"] in ("silence", "reject", "exception") else ["request", "response"]
             for side in sides:
                 pdu = bytes.fromhex(vector[f"{side}_wire"])[1:-2]
+                if "decode-only" in vector["flags"] and "values:bits" in row[side]:
+                    pdu = without_padding(pdu, len(vector[side]["fields"]["values"]))
                 assert pdu == filled(row[side], vector[side]["fields"], channels), vector["id"]
         if vector["outcome"] == "exception":
             fields = vector["response"]["fields"]
