@@ -30,7 +30,7 @@ def _table_of_bytes() -> list[int]:
 _ONE = _table_of_bytes()
 """What one byte does to the CRC."""
 _TWO: list[int] = []
-"""What two bytes do to it; made when first needed."""
+"""What two bytes do to it; made when first needed, and put here in one step: threads may race."""
 
 
 class WordStructs(dict[int, struct.Struct]):
@@ -56,7 +56,7 @@ def crc16(data: bytes) -> int:
     """
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
-        _TWO.extend([crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs])
+        _TWO[:] = [crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs]
     two = _TWO
     crc = _START
     length = len(data)

@@ -180,7 +180,7 @@ def _scan(  # noqa: C901, PLR0912 - one loop
         known = None
         if by_start is not None and at + 2 < size and buffer[at] in _MODULES:
             known = by_start[buffer[at + 1]][buffer[at + 2]]
-        if known == () and noise_at < at and not final:
+        if known == () and noise_at < at and (not final or size - at > LONGEST_FRAME):
             at += 1
             continue
         if known:
@@ -217,11 +217,13 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
                 return at + length
         elif not final:
             return None
-    return len(buffer) if final and _is_whole(buffer[at:]) else at
+    return len(buffer) if final and _ends_as_frame(buffer, at) else at
 
 
-def _is_whole(frame: bytes) -> bool:
-    return SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME and frame[0] <= LAST_ADDRESS and not crc16(frame)
+def _ends_as_frame(buffer: bytes, at: int) -> bool:
+    """Whether all that is left is one frame, of whatever function."""
+    whole = SHORTEST_FRAME <= len(buffer) - at <= LONGEST_FRAME and buffer[at] <= LAST_ADDRESS
+    return whole and not crc16(buffer[at:])
 
 
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)
