@@ -1,7 +1,10 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
+from collections.abc import Mapping
+
 from attrs import field, frozen
 
+from i7000.arguments import check_type
 from i7000.errors import EncodeError
 from i7000.models import AVAILABILITY, CONFIGURABLE, Firmware, Gates, Model
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
@@ -76,11 +79,16 @@ class Profile:
 
     def has(self, gates: Gates) -> bool:
         """Whether `gates` are open for this model and firmware."""
+        if gates.__class__ is not dict:
+            check_type("gates", gates, Mapping)
         return self.model in gates and self.runs(gates[self.model])
 
     def runs(self, firmware: Firmware | None) -> bool:
         """Whether the firmware is `firmware` or a later one."""
-        return firmware is None or self.firmware is None or self.firmware >= firmware
+        if firmware is None:
+            return True
+        check_type("firmware", firmware, Firmware)
+        return self.firmware is None or self.firmware >= firmware
 
     def supports(self, type_code: int) -> bool:
         """Whether the module can be set to `type_code`."""

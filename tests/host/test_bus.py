@@ -16,6 +16,7 @@ from i7000 import (
     Noise,
     Profile,
     Protocol,
+    StateError,
     dcon,
     modbus,
 )
@@ -110,8 +111,8 @@ def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing(
 def test_a_second_request_is_refused_while_one_is_open(second: Any) -> None:
     bus = ask(idle(), READ)
 
-    with pytest.raises(EncodeError, match=r"command cannot be .*: none before the one that was sent has its outcome"):
-        send(bus, second, M7019, 10.0)
+    with pytest.raises(StateError, match=r"a request is still open \(ReadChannelMask\(address=0x01\), due in 0\.0"):
+        send(bus, second, M7019, 0.1)
 
 
 def test_an_idle_line_has_no_deadline() -> None:

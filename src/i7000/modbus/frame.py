@@ -5,6 +5,7 @@ Laws: `seal` and `unseal` are each other's inverse.
 
 import struct
 
+from i7000.arguments import as_bytes
 from i7000.errors import DecodeError, Fault
 
 __all__ = ["LONGEST_FRAME", "SHORTEST_FRAME", "crc16", "seal", "unseal"]
@@ -54,6 +55,8 @@ def crc16(data: bytes) -> int:
     >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
     'CCF1'
     """
+    if data.__class__ is not bytes:
+        data = as_bytes("data", data)
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
         _TWO[:] = [crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs]
@@ -74,6 +77,8 @@ def seal(body: bytes) -> bytes:
     >>> seal(bytes.fromhex("010400000008")).hex()
     '010400000008f1cc'
     """
+    if body.__class__ is not bytes:
+        body = as_bytes("body", body)
     return body + _PACK(crc16(body))
 
 
@@ -82,6 +87,8 @@ def unseal(frame: bytes) -> bytes:
 
     Errors: `DecodeError` with `Fault.LENGTH` or `CRC`.
     """
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
     if not SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME:
         allowed = f"{SHORTEST_FRAME} to {LONGEST_FRAME} bytes"
         raise DecodeError(Fault.LENGTH, frame, min(len(frame), LONGEST_FRAME), allowed=allowed, section="3")

@@ -10,6 +10,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any, NamedTuple
 
+from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
 from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16
@@ -133,12 +134,20 @@ def split(
         longer: when the line has been silent for 3.5 characters, `flush` the rest.
     Manual: 3; E61.
     """
+    if buffer.__class__ is not bytes:
+        buffer = as_bytes("buffer", buffer)
+    if side.__class__ is not Side:
+        check_type("side", side, Side)
+    if profile is not None and profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
     size = len(buffer)
     if request is None and size and 0 < buffer[0] <= LAST_ADDRESS:
         function = buffer[1] if size > 1 else _MISSING
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
+    if request is not None:
+        check_type("request", request, Request)
     return _scan(buffer, side, profile, request, final=False)
 
 
@@ -150,7 +159,10 @@ def flush(
     Special: with the silence for a mark, a frame of an unknown function is one too, if it is all that is left: a module
         answers it with an exception.
     """
-    return _scan(rest, side, profile, request, final=True)[0]
+    check_type("side", side, Side)
+    check_type("profile", profile, Profile, optional=True)
+    check_type("request", request, Request, optional=True)
+    return _scan(as_bytes("rest", rest), side, profile, request, final=True)[0]
 
 
 def drop_echo(received: bytes, sent: bytes) -> bytes | None:
@@ -158,6 +170,7 @@ def drop_echo(received: bytes, sent: bytes) -> bytes | None:
 
     Errors: `DecodeError` with `Fault.ECHO` where something else came.
     """
+    received, sent = as_bytes("received", received), as_bytes("sent", sent)
     for at, (byte, expected) in enumerate(zip(received, sent, strict=False)):
         if byte != expected:
             raise DecodeError(Fault.ECHO, received, at, allowed=sent.hex(" "), section="3")
