@@ -253,6 +253,8 @@ class Ram:
                 raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
         if not is_int(self.address, 0, 0xFF):
             raise EncodeError("address", self.address, "00..FF", "2")
+        if not all(isinstance(it, tuple) and tuple(map(type, it)) == (TypeCode, Reading) for it in self.sampled or ()):
+            raise EncodeError("sampled", self.sampled, "type code and reading of each channel", "2.2")
 
 
 _KEPT: dict[str, tuple[type, ...]] = {

@@ -6,7 +6,7 @@ beyond the range, is told as it is read and not written.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, get_args
+from typing import Any
 
 from attrs import evolve, field, frozen
 
@@ -14,7 +14,7 @@ from i7000.arguments import as_tuple, check_type
 from i7000.errors import DecodeError, EncodeError, Fault, shown
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
-from i7000.modbus.request import ExceptionResponse, Request
+from i7000.modbus.request import ExceptionResponse, Request, Response
 from i7000.modbus.standard import (
     Coils,
     DiscreteInputs,
@@ -244,11 +244,12 @@ class Plan:
         """Tell the values by name; an exception is the value of all that it refused.
 
         Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`,
-            and for what does not answer its request: `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
+            and for what does not answer its request, silence (None) included: `Fault.FUNCTION`, `ADDRESS`,
+            `COUNT`.
         """
         responses = as_tuple("responses", responses)
         for response in responses:
-            check_type("responses", response, *get_args(Items), ExceptionResponse)
+            check_type("responses", response, Response, optional=True)
         if len(responses) != len(self.requests):
             raise EncodeError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
         for request, response in zip(self.requests, responses, strict=True):
