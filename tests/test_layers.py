@@ -11,6 +11,7 @@ SRC = Path(__file__).parents[1] / "src" / "i7000"
 RINGS = {
     "errors": 1,
     "frozen": 1,
+    "arguments": 1,
     "type_codes": 1,
     "settings": 1,
     "fields": 1,

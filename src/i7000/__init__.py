@@ -3,7 +3,7 @@
 The vocabulary is here; the protocols are the modules `i7000.dcon` and, for M-7000 modules, Modbus RTU.
 """
 
-from i7000.errors import DecodeError, EncodeError, Fault, I7000Error, Noise
+from i7000.errors import ArgumentError, DecodeError, EncodeError, Fault, I7000Error, Noise, StateError
 from i7000.models import Firmware, Model, series
 from i7000.profile import Profile
 from i7000.readings import Reading, Status
@@ -22,6 +22,7 @@ from i7000.type_codes import MIXED, TypeCode, Unit
 
 __all__ = [
     "MIXED",
+    "ArgumentError",
     "BaudRate",
     "CharacterFormat",
     "CjcUpdate",
@@ -40,6 +41,7 @@ __all__ = [
     "Protocol",
     "Reading",
     "ReportSettings",
+    "StateError",
     "Status",
     "TypeCode",
     "Unit",

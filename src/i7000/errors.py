@@ -1,14 +1,16 @@
-"""What can be wrong, in both directions: every error of the package lives here.
+"""What can be wrong: every error of the package lives here.
 
-Laws: an encoder raises nothing but `EncodeError`, a decoder nothing but `DecodeError`. What a module may
-legally say is never an error: a refusal (``?AA``) is a value.
+Laws: given arguments of the right types, an encoder raises nothing but `EncodeError`, a decoder nothing but
+`DecodeError`. A function called with another type raises `ArgumentError`; a constructor raises `EncodeError` for a
+field that cannot have the value, whatever its type. What a module may legally say is never an error: a refusal
+(``?AA``) is a value.
 """
 
 from enum import Enum
 
 from i7000.frozen import frozen
 
-__all__ = ["DecodeError", "EncodeError", "Fault", "I7000Error", "Noise", "shown"]
+__all__ = ["ArgumentError", "DecodeError", "EncodeError", "Fault", "I7000Error", "Noise", "StateError", "shown"]
 
 
 class Fault(Enum):
@@ -47,7 +49,7 @@ class Fault(Enum):
     ECHO = "echo"
     """A response that does not repeat what its request said."""
     RESERVED = "reserved"
-    """A reserved byte or spare bit that is not zero."""
+    """A reserved byte or bit that is not zero."""
 
 
 class I7000Error(Exception):
@@ -111,6 +113,26 @@ def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> Decode
     return DecodeError(fault, wire, offset, field=field, allowed=allowed, section=section)
 
 
+class ArgumentError(I7000Error, TypeError):
+    """An argument of a type that the function does not work on.
+
+    Shape: `argument` (its name), `value` (what was given), `allowed` (the types that it can have).
+    """
+
+    def __init__(self, argument: str, value: object, allowed: str) -> None:
+        super().__init__(argument, value, allowed)
+        self.argument = argument
+        self.value = value
+        self.allowed = allowed
+
+    def __str__(self) -> str:
+        return f"{self.argument} cannot be {shown(self.value)} ({type(self.value).__name__}): {self.allowed}"
+
+
+class StateError(I7000Error):
+    """A call at the wrong time: a request is still open, or the clock went back; the text says what to do instead."""
+
+
 _SHOWN = 60
 """Characters of a value that a message shows; the attribute holds all of it."""
 
@@ -121,6 +143,8 @@ def shown(value: object) -> str:
         text = repr(value)
     except ValueError:  # sys.set_int_max_str_digits
         return f"a number too long to be written, of or in {type(value).__name__}"
+    except Exception:  # noqa: BLE001 - a `__repr__` of another's
+        return f"a value that cannot be written, of {type(value).__name__}"
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}... ({len(text)} characters)"
 
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from attrs import field
 
+from i7000.arguments import check_type
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
 from i7000.settings import Protocol
@@ -263,6 +264,7 @@ def series(*names: str) -> frozenset[Model]:
     """
     models: set[Model] = set()
     for name in names:
+        check_type("names", name, str)
         if name not in _NAMES:
             raise EncodeError("series", name, "a model, or the beginning of one up to its four digits", "1")
         models |= _NAMES[name]

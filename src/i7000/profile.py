@@ -1,9 +1,11 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from attrs import field
 
+from i7000.arguments import check_type
 from i7000.errors import EncodeError
 from i7000.fields import TEXT_WIDTH
 from i7000.frozen import frozen
@@ -95,11 +97,16 @@ class Profile:
 
     def has(self, gates: Gates) -> bool:
         """Whether `gates` are open for this model and firmware."""
+        if gates.__class__ is not dict:
+            check_type("gates", gates, Mapping)
         return self.model in gates and self.runs(gates[self.model])
 
     def runs(self, firmware: Firmware | None) -> bool:
         """Whether the firmware is `firmware` or a later one."""
-        return firmware is None or self.firmware is None or self.firmware >= firmware
+        if firmware is None:
+            return True
+        check_type("firmware", firmware, Firmware)
+        return self.firmware is None or self.firmware >= firmware
 
     def supports(self, type_code: int) -> bool:
         """Whether the module can be set to `type_code`."""

@@ -10,6 +10,7 @@ from typing import Self
 
 from attrs import field
 
+from i7000.arguments import LARGEST_FLOAT, as_tuple, check_int
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
 
@@ -50,6 +51,8 @@ class BaudRate(IntEnum):
     @classmethod
     def of(cls, code: int) -> "BaudRate | int":
         """The member of `code`; a code that is none stays the number it is."""
+        if code.__class__ is not int:
+            check_int("code", code)
         return _BAUD_RATES.get(code, code)
 
 
@@ -90,7 +93,12 @@ class DataFormat(IntEnum):
     @classmethod
     def of(cls, code: int) -> "DataFormat | int":
         """The member of `code`; the undefined code 3 stays a number."""
-        return cls(code) if code <= cls.HEX else code
+        if code.__class__ is not int:
+            check_int("code", code)
+        return _DATA_FORMATS.get(code, code)
+
+
+_DATA_FORMATS: dict[int, DataFormat] = {member.value: member for member in DataFormat}
 
 
 class ModbusDataFormat(IntEnum):
@@ -122,9 +130,6 @@ class CjcUpdate(IntEnum):
     ONCE = 2
 
 
-_LARGEST_FLOAT = float.fromhex("0x1.fffffffffffffp+1023")
-
-
 def is_int(value: object, low: int, high: int) -> bool:
     """Whether a value is an int in a range, and no truth value."""
     return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
@@ -132,7 +137,7 @@ def is_int(value: object, low: int, high: int) -> bool:
 
 def is_number(value: object) -> bool:
     """Whether a value is a finite number, of a size that a float can have, and no truth value."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST_FLOAT
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_FLOAT
 
 
 def _byte(name: str, value: int) -> int:
@@ -225,13 +230,14 @@ class ReportSettings:
 def channels_of(mask: int) -> frozenset[int]:
     """List the channels of a mask.
 
-    Errors: `EncodeError` for a negative number.
+    Errors: `EncodeError` for a number that no mask can be: of more than 24 bits, or negative.
 
     >>> sorted(channels_of(0x3A))
     [1, 3, 4, 5]
     """
-    if mask < 0:
-        raise EncodeError("mask", mask, "0 or more", "2.13")
+    check_int("mask", mask)
+    if not 0 <= mask <= _LARGEST_MASK:
+        raise EncodeError("mask", mask, f"0..{_LARGEST_MASK:X} in hex", "2.13")
     return frozenset(channel for channel in range(mask.bit_length()) if mask >> channel & 1)
 
 
@@ -244,11 +250,12 @@ def mask_of(channels: Iterable[int]) -> int:
     '3A'
     """
     mask = 0
-    for channel in channels:
-        if not isinstance(channel, int) or not 0 <= channel < _MOST_CHANNELS:
+    for channel in as_tuple("channels", channels):
+        if not is_int(channel, 0, _MOST_CHANNELS - 1):
             raise EncodeError("channel", channel, f"0..{_MOST_CHANNELS - 1}", "2.13")
         mask |= 1 << channel
     return mask
 
 
 _MOST_CHANNELS = 20
+_LARGEST_MASK = 0xFFFFFF

@@ -6,6 +6,8 @@ The printed tables stand in ``spec/tables`` and tests hold the rules here agains
 
 from enum import IntEnum, StrEnum
 
+from i7000.arguments import check_int
+
 __all__ = ["MIXED", "TypeCode", "Unit"]
 
 MIXED = 0xFF
@@ -82,6 +84,8 @@ class TypeCode(IntEnum):
     @classmethod
     def of(cls, code: int) -> "TypeCode | int":
         """The member of `code`; a code that is none (`MIXED`, say) stays the number it is."""
+        if code.__class__ is not int:
+            check_int("code", code)
         return _MEMBERS.get(code, code)
 
 

@@ -240,6 +240,9 @@ def splitter_results() -> Iterator[Result]:
         {"one call": _call(split_all, stream, len(stream)), "64 KB": _call(split_all, stream, 1 << 16)}, turns=9
     )
     yield at_most("split 1 MB in one call, of 64 KB calls", times["one call"], times["64 KB"], 1.3)
+    noise = random.Random(7000).randbytes(1 << 18)
+    times = best_times({"split": _call(modbus.split, noise), "flush": _call(modbus.flush, noise)}, turns=9)
+    yield at_most("flush 256 KB of noise, of splitting it", times["flush"], times["split"], 1.3)
 
 
 def _call(function: Callable[..., Any], *arguments: Any) -> Task:

@@ -1,6 +1,7 @@
 """Several modules on one pair of wires."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import pytest
 from attrs import evolve
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from i7000 import (
     BaudRate,
+    CharacterFormat,
     DataFormat,
     EncodeError,
     Fault,
@@ -251,6 +253,62 @@ def test_what_passes_a_wrong_parity_is_answered_in_a_parity_that_is_wrong_for_th
 
     answer = b">" + b"+0.0000" * 8 + b"\r"
     assert [hear_at(answer, Uart(9600), Uart(9600, parity="E"))] == [heard.answer for heard in told]
+
+
+def test_one_piece_with_frames_of_both_protocols_is_not_cut_for_those_with_other_line_settings() -> None:
+    """A cut would be a pause to the module that samples at its own settings: it hears the piece as a whole."""
+    even = LineSettings(character_format=CharacterFormat.E81)
+    stranger = bench(Model.I_7018, address=0x11).state
+    asked = bench(Model.M_7019R, protocol=Protocol.MODBUS_RTU, line_settings=even).state
+    request = modbus.encode(modbus.ReadModuleName(1))
+
+    _, _, told = hear_all(Bus((stranger, asked)), request + b"#11\r", ear=Ear(Uart(9600, parity="E")))
+
+    assert [(b"#11\r", 0), (request, 1)] == [
+        (heard.frame, heard.module) for heard in told if not isinstance(heard.frame, Noise)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("frame", "ends"),
+    [
+        (b"\x01\x46\x63", True),
+        (b"\x46\x63", True),
+        (b"\x46", False),
+        (b"\x00\x01\x46\x63", False),
+        (Noise(b"\x01\x46\x63", Fault.LENGTH), False),
+    ],
+)
+def test_what_waits_for_silence_ends_with_a_frame_if_nothing_came_after_it(frame: bytes | Noise, ends: bool) -> None:  # noqa: FBT001
+    _, ear, _ = hear_all(bus(M01=Model.M_7017), b"\x01\x46\x63")
+
+    assert ends == ear.ends_with(frame)
+
+
+def test_what_does_not_wait_for_silence_ends_with_nothing() -> None:
+    _, ear, _ = hear_all(bus(A01=Model.I_7018), b"$01")
+
+    assert not ear.ends_with(b"$01")
+    assert not Ear().ends_with(b"")
+
+
+def test_all_that_waits_for_silence_has_to_end_with_the_frame() -> None:
+    """The second module hears the characters with an odd number of ones only, so all but the third."""
+    even = LineSettings(character_format=CharacterFormat.E81)
+    modules = [
+        bench(Model.M_7017, address=2, protocol=Protocol.MODBUS_RTU, line_settings=line).state
+        for line in (even, LineSettings())
+    ]
+    _, ear, _ = hear_all(Bus(tuple(modules)), b"\x02\x46\x63\x01", ear=Ear(Uart(9600, parity="E")))
+
+    assert not ear.ends_with(b"\x63\x01")
+    assert ear.ends_with(b"\x01")
+
+
+@pytest.mark.parametrize("modules", [None, [], (None,), "modules"])
+def test_a_bus_is_a_tuple_of_modules(modules: Any) -> None:
+    with pytest.raises(EncodeError, match=r"modules cannot be .*: a tuple of State"):
+        Bus(modules)
 
 
 # --- what holds for every bus -----------------------------------------------------------------------------------------

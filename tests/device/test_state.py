@@ -247,6 +247,12 @@ def test_a_signal_has_a_unit() -> None:
         Signal(1.0, "V")  # type: ignore[arg-type]
 
 
+def test_a_signal_is_on_its_channel() -> None:
+    signals = Signals.of(Unit.VOLT, 1.0, 2.0)
+
+    assert [Signal(1.0, Unit.VOLT), Signal(2.0, Unit.VOLT)] == [signals.channel(number) for number in (0, 1)]
+
+
 def test_nothing_is_on_a_channel_that_is_not_there() -> None:
     signals = Signals.of(Unit.VOLT, 1.0)
 

@@ -16,6 +16,7 @@ from i7000 import (
     Noise,
     Profile,
     Protocol,
+    StateError,
     dcon,
     modbus,
 )
@@ -106,12 +107,20 @@ def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing(
         send(idle(), dcon.ReadCjcUpdate(0x01), Profile(Model.M_7018), 0.0)
 
 
+@pytest.mark.parametrize(
+    "name", ["line", "policy", "echo", "pending", "last", "rest", "heard_at", "quiet_until", "clock"]
+)
+def test_a_line_has_no_field_of_another_type(name: str) -> None:
+    with pytest.raises(EncodeError, match=rf"{name} cannot be 'text': an instance of \w+"):
+        Bus(**{name: "text"})  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("second", [READ, COIL, dcon.HostOk()])
 def test_a_second_request_is_refused_while_one_is_open(second: Any) -> None:
     bus = ask(idle(), READ)
 
-    with pytest.raises(EncodeError, match=r"command cannot be .*: none before the one that was sent has its outcome"):
-        send(bus, second, M7019, 10.0)
+    with pytest.raises(StateError, match=r"a request is still open \(ReadChannelMask\(address=0x01\), due in 0\.0"):
+        send(bus, second, M7019, 0.1)
 
 
 def test_an_idle_line_has_no_deadline() -> None:
@@ -332,6 +341,17 @@ def test_a_request_without_answer_goes_out_as_often_as_the_policy_says() -> None
     later = allowance + 0.05
     assert [Transmit(READ_WIRE), Transmit(READ_WIRE), TimedOut(READ)] == [event for _, event in events]
     assert pytest.approx([later, 2 * later, 3 * later - 0.05]) == [now for now, _ in events]
+
+
+def test_a_request_without_answer_goes_out_three_times_by_default() -> None:
+    bus, wire = send(Bus[Any](), READ, M7019, 0.0)
+    sent = [wire]
+
+    while (now := next_deadline(bus)) is not None:
+        bus, events = wake(bus, now)
+        sent += [event.wire for event in events if isinstance(event, Transmit)]
+
+    assert sent == [READ_WIRE] * 3
 
 
 def test_the_answer_to_a_repeated_request_is_its_outcome() -> None:

@@ -280,7 +280,7 @@ def test_a_value_is_written_in_the_unit_of_its_row(
         (M_7017, "response_delay", [0xFFFF], 0xFFFF),
         (M_7018, "cjc_temperature", [0xFF9C], -1.0),
         (M_7018, "module_cjc_offset", [0xF000], -40.96),
-        (M_7018, "cjc_offset", [0x80, 0x7F, *[0] * 6], (-12.8, 12.7, *[0.0] * 6)),
+        (M_7018, "cjc_offset", [0x80, 0x7F, 0xFF, *[0] * 5], (-12.8, 12.7, -0.1, *[0.0] * 5)),
         (RegisterMap(Profile(Model.M_7018_16)), "temperature", [0xFFFF] * 16, (-1,) * 16),
         (M_7019R, "cjc_offset", [0xFFFF] * 8, (-0.01,) * 8),
         (M_7019R, "temperature_offset", [0xFF80] * 8, (-12.8,) * 8),

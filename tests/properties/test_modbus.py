@@ -296,17 +296,36 @@ def test_other_items_than_were_asked_for_are_refused(data: st.DataObject) -> Non
     assert caught.value.fault is Fault.COUNT
 
 
-@given(st.integers(1, 2000).filter(lambda count: count % 8), st.sampled_from(READS[:2]), st.data())
-def test_spare_bits_that_are_set_are_refused(count: int, asked: Any, data: st.DataObject) -> None:
-    profile = data.draw(profiles())
-    request = asked(1, 0, count)
-    body = modbus.encode(request.response(1, (False,) * count))[:-2]
-    spare = 1 << data.draw(st.integers(count % 8, 7))
+def with_padding(frame: bytes, count: int, data: st.DataObject) -> bytes:
+    """The frame with padding bits set behind its `count` items, in its last byte."""
+    padding = data.draw(st.integers(1, 0xFF >> count % 8)) << count % 8
+    return modbus.seal(frame[:-3] + bytes((frame[-3] | padding,)))
 
-    with pytest.raises(DecodeError) as caught:
-        modbus.decode_response(modbus.seal(body[:-1] + bytes((spare,))), request, profile)
 
-    assert caught.value.fault is Fault.RESERVED
+PADDED = st.lists(st.booleans(), min_size=1, max_size=1968).map(tuple).filter(lambda values: len(values) % 8)
+
+
+@given(PADDED, st.sampled_from(READS[:2]), st.data())
+def test_padding_bits_of_an_answer_are_dropped(values: Any, asked: Any, data: st.DataObject) -> None:
+    request = asked(1, 0, len(values))
+    response = request.response(1, values)
+    wire = with_padding(modbus.encode(response), len(values), data)
+
+    assert response == modbus.decode_response(wire, request, data.draw(profiles()))
+
+
+@given(PADDED, st.data())
+def test_padding_bits_of_a_request_are_dropped(values: Any, data: st.DataObject) -> None:
+    request = modbus.WriteMultipleCoils(1, 0, values)
+    wire = with_padding(modbus.encode(request), len(values), data)
+
+    assert request == modbus.decode_request(wire, data.draw(profiles()))
+
+
+@given(PADDED, st.sampled_from((modbus.Coils, modbus.DiscreteInputs)))
+def test_padding_bits_are_written_as_zero(values: Any, kind: Any) -> None:
+    for message in (kind(1, values), modbus.WriteMultipleCoils(1, 0, values)):
+        assert modbus.encode(message)[-3] >> len(values) % 8 == 0
 
 
 @given(st.data())

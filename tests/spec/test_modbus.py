@@ -298,6 +298,11 @@ def filled(pdu: str, fields: Record, channels: int) -> bytes:
     return found
 
 
+def without_padding(pdu: bytes, count: int) -> bytes:
+    """A PDU that ends with `count` bits, with its padding bits zero."""
+    return pdu[:-1] + bytes((pdu[-1] & 0xFF >> -count % 8,))
+
+
 @pytest.mark.parametrize("path", VECTORS)
 def test_a_wire_is_its_pdu_with_its_fields(path: Path) -> None:
     for vector in lint.records(lint.load(path)):
@@ -307,6 +312,8 @@ def test_a_wire_is_its_pdu_with_its_fields(path: Path) -> None:
             sides = ["request"] if vector["outcome"] in ("silence", "reject", "exception") else ["request", "response"]
             for side in sides:
                 pdu = bytes.fromhex(vector[f"{side}_wire"])[1:-2]
+                if "decode-only" in vector["flags"] and "values:bits" in row[side]:
+                    pdu = without_padding(pdu, len(vector[side]["fields"]["values"]))
                 assert pdu == filled(row[side], vector[side]["fields"], channels), vector["id"]
         if vector["outcome"] == "exception":
             fields = vector["response"]["fields"]

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from attrs import evolve
 
+from i7000.arguments import as_bytes, as_tuple, check_int, check_type
 from i7000.dcon.calibration import (
     CalibrateChannelSpan,
     CalibrateChannelZero,
@@ -39,7 +40,7 @@ from i7000.dcon.configuration import (
     SetChannelTypeCode,
     SetConfiguration,
 )
-from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS, seal, unseal
+from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS, sealed, unseal
 from i7000.dcon.identity import (
     ReadFirmwareVersion,
     ReadModuleName,
@@ -76,6 +77,7 @@ from i7000.models import AVAILABILITY, Firmware, Model, series
 from i7000.profile import LAST_LEGACY, Profile
 from i7000.readings import Reading, decode_field, decode_fields, decode_numbers, encode_field, encode_fields
 from i7000.settings import DataFormat
+from i7000.type_codes import TypeCode
 
 __all__ = [
     "COMMANDS",
@@ -171,7 +173,12 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
     >>> encode(ReadConfiguration(0x01), Profile(Model.I_7018, checksum=True))
     b'$012B7\r'
     """
-    if force:
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if not isinstance(message, Message):
+        check_type("message", message, Message)  # type: ignore[unreachable] # with types
+    if force is not False:
+        check_type("force", force, bool)
         message.layout.check_digits(message, profile)
     else:
         if message.section in profile.refused:
@@ -180,7 +187,7 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
                 f"{profile.name} has no {message.title}",
             )  # fmt: skip
         message.check(profile)
-    return seal(message.layout.encode(message, profile), checksum=profile.checksum)
+    return sealed(message.layout.encode(message, profile), profile.checksum)
 
 
 def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
@@ -193,6 +200,10 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
     >>> decode_command(b"$01A\r", Profile(Model.M_7019R)), decode_command(b"$01A\r", Profile(Model.M_7017))
     (ReadCjcUpdate(address=0x01), ReadAnalogInputsHex(address=0x01))
     """
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
     body = unseal(frame, checksum=profile.checksum, leads=COMMAND_LEADS).decode("ascii")
     known = _BY_KEY.get(_key(body), ())
     refused = None
@@ -231,6 +242,12 @@ def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | 
     >>> decode_response(b"?01\r", ReadConfiguration(0x01), Profile(Model.I_7018))
     Refused(address=0x01)
     """
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
+    if not isinstance(command, Command):
+        check_type("command", command, Command)  # type: ignore[unreachable] # with types
     layout = command.response.layout
     body = unseal(frame, checksum=profile.checksum, leads=layout.leads).decode("ascii")
     if body[0] == "?":
@@ -282,6 +299,7 @@ def candidates(frame: bytes) -> tuple[AnyCommand, ...]:
     >>> candidates(b"#0184\r")
     (ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132))
     """
+    frame = as_bytes("frame", frame)
     found: dict[AnyCommand, None] = {}
     faults = []
     for checksum, profile in product((False, True), _profiles()):
@@ -304,6 +322,7 @@ def response_candidates(frame: bytes) -> tuple[Response, ...]:
     >>> response_candidates(b"?01\r")
     (Refused(address=0x01),)
     """
+    frame = as_bytes("frame", frame)
     found: dict[Response, None] = {}
     unseal(frame, checksum=False, leads=RESPONSE_LEADS)
     for checksum in (False, True):
@@ -330,6 +349,10 @@ _RESPONSES: tuple[type[Response], ...] = (
 # --- readings ---------------------------------------------------------------------------------------------------------
 
 
+_REPORTS = (AnalogInputs, AnalogInputsHex, SynchronizedData)
+"""The responses that have a field a channel."""
+
+
 def readings(
     response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile, *, lenient: bool = False
 ) -> tuple[Reading, ...]:
@@ -346,6 +369,10 @@ def readings(
     >>> [reading.value for reading in readings(report, Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8))]
     [25.12, 25.12, 25.12, 25.12, 25.12, 25.12, 25.12, None]
     """
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if not isinstance(response, _REPORTS):
+        check_type("response", response, *_REPORTS)  # type: ignore[unreachable] # with types
     values = response.values
     in_hex = isinstance(response, AnalogInputsHex)
     found = None if lenient or in_hex else decode_numbers(values, profile)
@@ -363,7 +390,8 @@ def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: b
     Errors: `DecodeError` as for `readings`.
     Manual: 1.11, A.5; E121.
     """
-    types = profile.type_codes[channel : channel + 1]
+    check_type("response", response, AnalogInput)
+    types = _types_of(channel, profile)
     if not types:
         raise _unknown_types(response.value, profile)
     return decode_field(response.value, types[0], profile.data_format, legacy=profile.legacy_sentinels, lenient=lenient)
@@ -379,7 +407,13 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
     >>> fields([Reading(1.5, Unit.VOLT)] * 8, Profile(Model.I_7017))[0]
     '+01.500'
     """
-    values = tuple(values)
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if values.__class__ is not tuple:
+        values = as_tuple("values", values)
+    if not {Reading}.issuperset(map(type, values)):
+        for value in values:
+            check_type("values", value, Reading)
     if len(values) != len(profile.type_codes):
         raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
     return encode_fields(values, profile.type_codes, profile.data_format, legacy=profile.legacy_sentinels)
@@ -391,10 +425,18 @@ def field(value: Reading, channel: int, profile: Profile) -> str:
     Errors: `EncodeError` for a reading that the channel cannot have, and for a channel whose type is not known.
     Manual: 1.11, A.5.
     """
-    types = profile.type_codes[channel : channel + 1]
+    check_type("value", value, Reading)
+    types = _types_of(channel, profile)
     if not types:
         raise EncodeError("channel", channel, f"0..{len(profile.type_codes) - 1}, those of a known type", "1.11")
     return encode_field(value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
+
+
+def _types_of(channel: int, profile: Profile) -> tuple[TypeCode, ...]:
+    """The type of one channel; none if the profile does not have it."""
+    check_type("profile", profile, Profile)
+    check_int("channel", channel)
+    return profile.type_codes[channel : channel + 1] if channel >= 0 else ()
 
 
 def _unknown_types(data: str, profile: Profile) -> DecodeError:
@@ -411,6 +453,8 @@ def longest_response(command: AnyCommand, profile: Profile) -> int:
     >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
     58
     """
+    check_type("profile", profile, Profile)
+    check_type("command", command, Command, Broadcast)
     if isinstance(command, Broadcast):
         return 0
     return command.response.layout.longest(profile) + 2 * profile.checksum + 1
@@ -423,6 +467,8 @@ def pause_after(command: AnyCommand, profile: Profile) -> float:
         series with firmware up to B2.6.
     Manual: 2.2, 2.8, 2.9, 2.28, 2.35; E103.
     """
+    check_type("profile", profile, Profile)
+    check_type("command", command, Command, Broadcast)
     if isinstance(command, Broadcast):
         return 0.002
     if isinstance(command, ReloadDefaultCalibration):

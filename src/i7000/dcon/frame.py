@@ -4,6 +4,7 @@ Laws: `seal` and `unseal` are each other's inverse. `split` never raises, never 
 and takes time in proportion to what it is given, whatever that is.
 """
 
+from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, Fault, Noise
 
 __all__ = ["LONGEST_FRAME", "checksum", "seal", "split", "unseal"]
@@ -30,7 +31,7 @@ def checksum(body: bytes) -> int:
     >>> f"{checksum(b'$012'):02X}"
     'B7'
     """
-    return sum(body) & 0xFF
+    return sum(as_bytes("body", body)) & 0xFF
 
 
 def seal(body: bytes, *, checksum: bool) -> bytes:
@@ -39,6 +40,13 @@ def seal(body: bytes, *, checksum: bool) -> bytes:
     >>> seal(b"$012", checksum=True)
     b'$012B7\r'
     """
+    if checksum is not True:
+        check_type("checksum", checksum, bool)
+    return sealed(body if body.__class__ is bytes else as_bytes("body", body), checksum)
+
+
+def sealed(body: bytes, checksum: bool) -> bytes:  # noqa: FBT001 - positional for speed
+    """Make a frame of a body, as `seal` does, without a look at the arguments."""
     return body + _CHECKSUMS[sum(body) & 0xFF] + b"\r" if checksum else body + b"\r"
 
 
@@ -50,6 +58,10 @@ def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
     >>> unseal(b"!0105060077\r", checksum=False)
     b'!0105060077'
     """
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
+    if leads.__class__ is not bytes:
+        leads = as_bytes("leads", leads)
     if (
         frame.translate(None, _PRINTABLE) != b"\r"
         or frame[-1] != _CR
@@ -57,7 +69,8 @@ def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
         or len(frame) > LONGEST_FRAME
     ):
         raise _damage(frame, leads)
-    if not checksum:
+    if checksum is not True:
+        check_type("checksum", checksum, bool)
         return frame[:-1]
     body = frame[:-3]
     if _CHECKSUMS[sum(body) & 0xFF] != frame[-3:-1] or not body:
@@ -98,7 +111,10 @@ def split(buffer: bytes, *, checksum: bool = False) -> tuple[tuple[bytes | Noise
     >>> split(b"\xff!01\r>+02")
     ((Noise(wire=b'\xff', fault=<Fault.LEADING: 'leading'>), b'!01\r'), b'>+02')
     """
-    buffer = bytes(buffer)
+    if buffer.__class__ is not bytes:
+        buffer = as_bytes("buffer", buffer)
+    if checksum is not True:
+        check_type("checksum", checksum, bool)
     *lines, rest = buffer.split(b"\r")
     found: list[bytes | Noise] = []
     line_at = noise_at = 0

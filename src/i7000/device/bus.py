@@ -12,6 +12,7 @@ from typing import NamedTuple
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
+from i7000.arguments import LARGEST_FLOAT, as_bytes, as_tuple, check_clock, check_type
 from i7000.device.module import is_for, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
@@ -19,7 +20,7 @@ from i7000.device.uart import Uart, hear_at
 from i7000.errors import EncodeError, Noise
 from i7000.frozen import frozen
 from i7000.profile import Profile
-from i7000.settings import LineSettings, Protocol
+from i7000.settings import LineSettings, Protocol, is_number
 
 __all__ = ["Bus", "Ear", "Heard"]
 
@@ -44,6 +45,14 @@ class Ear:
     told: bool = field(default=False, kw_only=True)
     """Whether something of DCON has been told since the line was silent: to others that is noise."""
 
+    def __attrs_post_init__(self) -> None:
+        if self.uart is not None and not isinstance(self.uart, Uart):
+            raise EncodeError("uart", self.uart, "a Uart, or None", "1.11")
+        if not isinstance(self.rests, tuple) or not all(map(_is_rest, self.rests)):
+            raise EncodeError("rests", self.rests, "what `Bus.hear` left", "")
+        if not isinstance(self.told, bool):
+            raise EncodeError("told", self.told, "True or False", "")
+
     @property
     def waiting(self) -> bool:
         """Whether there is something of which only silence can tell that it is whole."""
@@ -51,7 +60,14 @@ class Ear:
 
     def ends_with(self, frame: bytes | Noise) -> bool:
         """Whether all that waits for silence ends with a frame, so that nothing came after it."""
-        return self.waiting and all(isinstance(frame, bytes) and rest.endswith(frame) for _, rest in self.rests)
+        if isinstance(frame, Noise):
+            return False
+        end = as_bytes("frame", frame)
+        return self.waiting and all(rest.endswith(end) for _, rest in self.rests)
+
+
+def _is_rest(rest: object) -> bool:
+    return isinstance(rest, tuple) and len(rest) == 2 and isinstance(rest[0], Reception) and isinstance(rest[1], bytes)
 
 
 @frozen
@@ -74,12 +90,21 @@ class Bus:
     """Modules that all hear the same frames."""
 
     modules: tuple[State, ...]
+    clock: float = field(default=-LARGEST_FLOAT, kw_only=True, eq=False, repr=False)
+    """When it last heard something, which makes no difference to what it is."""
+
+    def __attrs_post_init__(self) -> None:
+        if not isinstance(self.modules, tuple) or not {State}.issuperset(map(type, self.modules)):
+            raise EncodeError("modules", self.modules, "a tuple of State", "2")
+        if not is_number(self.clock):
+            raise EncodeError("clock", self.clock, "a finite number of seconds", "")
 
     def step(self, frame: bytes, signals: Sequence[Signals], now: float) -> tuple["Bus", bytes | None]:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
 
         Shape: `signals` are those of each module, in their order.
-        Errors: `EncodeError` for signals of more or fewer modules.
+        Errors: `EncodeError` for signals of more or fewer modules, and for a time that is not finite; `StateError` for
+            a time before the last, as in `hear` and `silence`.
         Special: if several answer at once, each bit is 1 where all send 1 (E112, assumption): equal answers look like
             one.
 
@@ -89,15 +114,24 @@ class Bus:
         >>> bus.step(b"$01M\r", (Signals(), Signals()), 0.0)[1]
         b'!017018\r'
         """
-        if len(signals) != len(self.modules):
-            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
+        frame, signals = as_bytes("frame", frame), self._checked(signals, now)
         after, answers = [], []
         for module, own in zip(self.modules, signals, strict=True):
             state, answer = step(module, frame, own, now)
             after.append(state)
             if answer is not None:
                 answers.append(answer)
-        return Bus(tuple(after)), _collided(answers)
+        return Bus(tuple(after), clock=now), _collided(answers)
+
+    def _checked(self, signals: Sequence[Signals], now: float) -> tuple[Signals, ...]:
+        """Check the time and the signals of each module."""
+        check_clock(now, self.clock)
+        signals = as_tuple("signals", signals)
+        for own in signals:
+            check_type("signals", own, Signals)
+        if len(signals) != len(self.modules):
+            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
+        return signals
 
     def hear(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
@@ -113,6 +147,8 @@ class Bus:
         >>> bus.hear(ear, b"M\r", [Signals()], 0.0)[2][0].answer
         b'!017018\r'
         """
+        check_type("ear", ear, Ear)
+        data, signals = as_bytes("data", data), self._checked(signals, now)
         rests = dict(ear.rests)
         found: list[tuple[Reception, bytes | Noise]] = []
         left = []
@@ -141,6 +177,8 @@ class Bus:
 
         Manual: 3.
         """
+        check_type("ear", ear, Ear)
+        signals = self._checked(signals, now)
         found = [(reception, part) for reception, rest in ear.rests for part in _flush(reception, rest)]
         left = tuple((reception, rest) for reception, rest in ear.rests if reception.protocol is Protocol.DCON)
         if ear.told:
@@ -157,7 +195,7 @@ class Bus:
             else:
                 bus, heard = bus._hear_frame(ear, reception, part, signals, now)
                 told.append(heard)
-        return bus, ear, _without_foreign_noise(told)
+        return evolve(bus, clock=now), ear, _without_foreign_noise(told)
 
     def _hear_frame(
         self, ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float
@@ -170,11 +208,12 @@ class Bus:
             after[place] = module
         asked = next((place for place in places if is_for(self.modules[place], frame)), None)
         if asked is None:
-            return Bus(tuple(after)), Heard(frame, reception.protocol)
+            return Bus(tuple(after), clock=now), Heard(frame, reception.protocol)
         if answer is not None and ear.uart is not None and reception.uart is not None:
             answer = hear_at(answer, reception.uart, ear.uart)
         module = self.modules[asked]
-        return Bus(tuple(after)), Heard(frame, reception.protocol, asked, module.profile, answer, module.response_delay)
+        bus = Bus(tuple(after), clock=now)
+        return bus, Heard(frame, reception.protocol, asked, module.profile, answer, module.response_delay)
 
 
 _AT_ANY_LINE = {protocol: Reception(protocol, None) for protocol in Protocol}

@@ -2,7 +2,7 @@
 
 Laws: a frame that is damaged or not for this module is not answered; what cannot be done is answered with an exception
 and changes nothing; what is for all modules is done and not answered (E94). Any request that is carried out is a sign
-of life of the host (E106, assumption: the protocol has no other).
+of life of the host (E106, assumption: the protocol has no other). Padding bits of coils are not looked at (E120).
 """
 
 from collections.abc import Callable

@@ -1,12 +1,12 @@
 """A whole module: what time does to it, and what a frame does (manual 2, 3, A.2)."""
 
+from i7000.arguments import as_bytes, check_clock, check_type
 from i7000.device import dcon, modbus
 from i7000.device.measurement import words
 from i7000.device.signals import Signals
-from i7000.device.state import State
-from i7000.errors import EncodeError
+from i7000.device.state import State, at
 from i7000.models import Model
-from i7000.settings import Protocol, is_number
+from i7000.settings import Protocol
 
 __all__ = ["advance", "is_for", "step"]
 
@@ -18,6 +18,7 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
 
     Shape: `frame` is one whole frame, as the splitter of its protocol finds it.
     Time: `now` is in seconds, of the clock that `power_on` was given.
+    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
     Special: no frame raises; one that is not carried out changes nothing but what time does, see `advance`.
     Manual: 2, 3; E27, E94.
 
@@ -27,6 +28,8 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
     >>> step(module, b"#010\r", Signals.of(Unit.VOLT, 1.5), 0.0)[1]
     b'>+1.5000\r'
     """
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
     state = advance(state, signals, now)
     if not is_for(state, frame) and not _is_for_all(state, frame):
         return state, None
@@ -56,11 +59,16 @@ def advance(state: State, signals: Signals, now: float) -> State:
     """Let time pass: the host watchdog may time out, the data logger record.
 
     Special: what the logger missed since it was last called, it records with the `signals` of now.
-    Errors: `EncodeError` for a time that is not finite.
+    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
     Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (one of 0 never comes), E106, E114, E138.
     """
-    if not is_number(now):
-        raise EncodeError("now", now, "a finite number of seconds", "2")
+    if state.__class__ is not State:
+        check_type("state", state, State)
+    if signals.__class__ is not Signals:
+        check_type("signals", signals, Signals)
+    if now != state.clock:
+        check_clock(now, state.clock)
+        state = at(state, now)
     eeprom = state.eeprom
     timeout = eeprom.host_watchdog_timeout
     if eeprom.host_watchdog_enabled and timeout and now >= state.ram.fed_at + timeout / 10:

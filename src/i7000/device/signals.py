@@ -5,6 +5,7 @@ Laws: a signal is what a meter would show at the terminals; what the module make
 
 from attrs import field, frozen
 
+from i7000.arguments import check_int
 from i7000.errors import EncodeError
 from i7000.settings import is_number
 from i7000.type_codes import Unit
@@ -66,4 +67,5 @@ class Signals:
 
     def channel(self, number: int) -> Signal | None:
         """Tell what is on one channel; there is nothing on one that is not there."""
+        check_int("number", number)
         return self.channels[number] if 0 <= number < len(self.channels) else OPEN_WIRE

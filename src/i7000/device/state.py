@@ -6,10 +6,12 @@ too. A `State` always has the profile that its bytes are read with.
 
 from collections.abc import Callable
 from functools import lru_cache
+from types import NoneType
 from typing import Any, TypeVar
 
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
+from i7000.arguments import LARGEST_FLOAT, check_clock, check_type
 from i7000.dcon import ModuleName
 from i7000.device.logger import Log
 from i7000.errors import EncodeError
@@ -53,14 +55,21 @@ def _within(low: int, high: int) -> Check:
     return check
 
 
-def _one_each(check: Check | None = None) -> Check:
+def _a(kind: type) -> Check:
+    def check(_: "Eeprom", attribute: "Attribute[Any]", value: object) -> None:
+        if not isinstance(value, kind):
+            raise EncodeError(attribute.name, value, f"an instance of {kind.__name__}", "3.4")
+
+    return check
+
+
+def _one_each(check: Check) -> Check:
     def check_all(eeprom: "Eeprom", attribute: "Attribute[Any]", values: tuple[int, ...]) -> None:
         inputs = inputs_of(eeprom.model)
         if not isinstance(values, tuple) or len(values) != inputs:
             raise EncodeError(attribute.name, values, f"a tuple of {inputs}: {eeprom.model.value}", "1.3")
-        if check:
-            for value in values:
-                check(eeprom, attribute, value)
+        for value in values:
+            check(eeprom, attribute, value)
 
     return check_all
 
@@ -76,17 +85,18 @@ def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
 
 
 def _check_protocol(eeprom: "Eeprom", attribute: "Attribute[Any]", protocol: Protocol) -> None:
-    if protocol not in eeprom.model.protocols:
+    if not isinstance(protocol, Protocol) or protocol not in eeprom.model.protocols:
         raise EncodeError(attribute.name, protocol, f"DCON: {eeprom.model.value} has no Modbus", "1.12")
 
 
 def _check_line(_: "Eeprom", attribute: "Attribute[Any]", line: LineSettings) -> None:
-    if not isinstance(line.baud_rate, BaudRate):
+    if not isinstance(line, LineSettings) or not isinstance(line.baud_rate, BaudRate):
         raise EncodeError(attribute.name, line, "a baud rate code of 03..0A", "1.11")
 
 
 def _check_report(_: "Eeprom", attribute: "Attribute[Any]", report: ReportSettings) -> None:
-    if not isinstance(report.data_format, DataFormat) or report.reserved:
+    known = isinstance(report, ReportSettings) and isinstance(report.data_format, DataFormat)
+    if not known or report.reserved:
         raise EncodeError(attribute.name, report, "a data format of 0..2, no reserved bits", "1.11")
 
 
@@ -99,9 +109,9 @@ class Eeprom:
     Manual: 1.9, 1.11, 2, 3.4; E35, E72, E83, E95.
     """
 
-    model: Model
-    firmware: Firmware
-    type_codes: tuple[TypeCode, ...] = field(validator=_one_each())
+    model: Model = field(validator=_a(Model))
+    firmware: Firmware = field(validator=_a(Firmware))
+    type_codes: tuple[TypeCode, ...] = field(validator=_one_each(_a(TypeCode)))
     report_settings: ReportSettings = field(validator=_check_report)
     name: str = field(validator=_check_name)
     """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
@@ -111,28 +121,28 @@ class Eeprom:
     """Tenths of a degree: CJC offsets of the 7018 series, temperature offsets of the 7019 series (E62)."""
     channel_cjc_offsets: tuple[int, ...] = field(validator=_one_each(_within(-0x1000, 0x1000)))
     """Hundredths of a degree, 7019 series only (40353..)."""
-    open_wire_detection: bool
+    open_wire_detection: bool = field(validator=_a(bool))
     address: int = field(default=1, validator=_within(0, 0xFF))
     line_settings: LineSettings = field(default=LineSettings(), validator=_check_line)
-    single_ended: bool = False
-    modbus_data_format: ModbusDataFormat = ModbusDataFormat.HEX
+    single_ended: bool = field(default=False, validator=_a(bool))
+    modbus_data_format: ModbusDataFormat = field(default=ModbusDataFormat.HEX, validator=_a(ModbusDataFormat))
     cjc_offset: int = field(default=0, validator=_within(-0x1000, 0x1000))
     """Hundredths of a degree."""
-    cjc_enabled: bool = True
-    host_watchdog_enabled: bool = False
+    cjc_enabled: bool = field(default=True, validator=_a(bool))
+    host_watchdog_enabled: bool = field(default=False, validator=_a(bool))
     host_watchdog_timeout: int = field(default=0, validator=_within(0, 0xFF))
     """Tenths of a second."""
-    host_watchdog_timed_out: bool = False
+    host_watchdog_timed_out: bool = field(default=False, validator=_a(bool))
     host_watchdog_timeouts: int = field(default=0, validator=_within(0, 0xFFFF))
     """How often it has timed out (40492); kept without power, as the status is (E114)."""
-    host_watchdog_mode: bool = False
+    host_watchdog_mode: bool = field(default=False, validator=_a(bool))
     """Coil 00260, which means nothing to modules without outputs (E30)."""
     response_delay: int = field(default=0, validator=_within(0, 30))
     """Milliseconds, by Modbus."""
-    sampling_rate_8_hz: bool = True
+    sampling_rate_8_hz: bool = field(default=True, validator=_a(bool))
     """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""
-    big_endian: bool = False
-    log: Log = field(default=Log(), hash=False)
+    big_endian: bool = field(default=False, validator=_a(bool))
+    log: Log = field(default=Log(), hash=False, validator=_a(Log))
 
     def __attrs_post_init__(self) -> None:
         self.check_types(profile_of(self))  # which refuses a mode or format that the model does not have
@@ -142,6 +152,7 @@ class Eeprom:
 
         Errors: `EncodeError`.
         """
+        check_type("profile", profile, Profile)
         if not all(map(profile.supports, self.type_codes[profile.channels :])):
             raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
@@ -178,6 +189,8 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
     ('7018', 'MODBUS_RTU', 32)
     """
+    check_type("model", model, Model)
+    check_type("firmware", firmware, Firmware, optional=True)
     inputs = inputs_of(model)
     zeros = (0,) * inputs
     return Eeprom(
@@ -233,6 +246,26 @@ class Ram:
     """The cold junction's temperature when its update ended, in degrees Celsius; None while it is updated."""
     reset_status_told: bool = False
 
+    def __attrs_post_init__(self) -> None:
+        for name, kinds in _KEPT.items():
+            if not isinstance(getattr(self, name), kinds):
+                allowed = " or ".join(kind.__name__ for kind in kinds)
+                raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
+        if not is_int(self.address, 0, 0xFF):
+            raise EncodeError("address", self.address, "00..FF", "2")
+        if not all(isinstance(it, tuple) and tuple(map(type, it)) == (TypeCode, Reading) for it in self.sampled or ()):
+            raise EncodeError("sampled", self.sampled, "type code and reading of each channel", "2.2")
+
+
+_KEPT: dict[str, tuple[type, ...]] = {
+    "address": (int,), "line_settings": (LineSettings,), "checksum": (bool,), "protocol": (Protocol,),
+    "init_mode": (bool,), "init_switch": (bool,), "fed_at": (int, float), "sampled": (tuple, NoneType),
+    "sampled_data_told": (bool,), "calibration_enabled": (bool,), "soft_init_timeout": (int,),
+    "soft_init_until": (int, float, NoneType), "cjc_update": (CjcUpdate,),
+    "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
+}  # fmt: skip
+"""What each field of `Ram` can be."""
+
 
 # --- a module with power ----------------------------------------------------------------------------------------------
 
@@ -258,6 +291,9 @@ class State:
 
     @profile.default
     def _profile(self) -> Profile:
+        for name, value, kind in (("eeprom", self.eeprom, Eeprom), ("ram", self.ram, Ram)):
+            if not isinstance(value, kind):
+                raise EncodeError(name, value, f"an instance of {kind.__name__}", "")
         return profile_of(self.eeprom, checksum=self.ram.checksum)
 
     inputs: Inputs = field(init=False, eq=False, repr=False)
@@ -266,13 +302,20 @@ class State:
     def _inputs(self) -> Inputs:
         return Inputs(self.eeprom)
 
+    clock: float = field(default=-LARGEST_FLOAT, kw_only=True, eq=False, repr=False)
+    """When it was last heard of, which makes no difference to what it is."""
+
+    def __attrs_post_init__(self) -> None:
+        if not is_number(self.clock):
+            raise EncodeError("clock", self.clock, "a finite number of seconds", "")
+
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
         """Change the EEPROM.
 
         Errors: `EncodeError` for what no module can have stored; only what changes is looked at.
         """
         if "model" in changes:  # by which nearly everything is measured
-            return State(evolve(self.eeprom, **changes), self.ram)
+            return State(evolve(self.eeprom, **changes), self.ram, clock=self.clock)
         eeprom = _copied(self.eeprom, changes)
         for name, value in changes.items():
             stored = _STORED[name]
@@ -283,17 +326,18 @@ class State:
             profile = profile_of(eeprom, checksum=self.ram.checksum)
             eeprom.check_types(profile)
         inputs = self.inputs if _OF_READINGS.isdisjoint(changes) else Inputs(eeprom)
-        return _state(eeprom, self.ram, profile, inputs)
+        return _state(eeprom, self.ram, profile, inputs, self.clock)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
         """Change the RAM."""
         ram = _copied(self.ram, changes)
         same = ram.checksum == self.ram.checksum
         profile = self.profile if same else profile_of(self.eeprom, checksum=ram.checksum)
-        return _state(self.eeprom, ram, profile, self.inputs)
+        return _state(self.eeprom, ram, profile, self.inputs, self.clock)
 
     def switched(self, *, init_switch: bool) -> "State":
         """Move the INIT switch, or INIT* terminal, while the power is on (E17)."""
+        check_type("init_switch", init_switch, bool)
         return self.keep(init_switch=init_switch)
 
     @property
@@ -307,14 +351,20 @@ class State:
         return self.eeprom.channel_mask & ((1 << self.profile.channels) - 1)
 
 
-def _state(eeprom: Eeprom, ram: Ram, profile: Profile, inputs: Inputs) -> State:
+def _state(eeprom: Eeprom, ram: Ram, profile: Profile, inputs: Inputs, clock: float) -> State:
     """Make a state of which is known what `State` would have to find out."""
     state = object.__new__(State)
     object.__setattr__(state, "eeprom", eeprom)
     object.__setattr__(state, "ram", ram)
     object.__setattr__(state, "profile", profile)
     object.__setattr__(state, "inputs", inputs)
+    object.__setattr__(state, "clock", clock)
     return state
+
+
+def at(state: State, now: float) -> State:
+    """Move the clock on; what the time does is for `i7000.device.advance`."""
+    return _state(state.eeprom, state.ram, state.profile, state.inputs, now)
 
 
 def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
@@ -329,8 +379,9 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
     >>> module.ram.address, module.ram.protocol.name, module.eeprom.address, module.eeprom.protocol.name
     (0, 'DCON', 1, 'MODBUS_RTU')
     """
-    if not is_number(now):
-        raise EncodeError("now", now, "a finite number of seconds", "2")
+    check_type("eeprom", eeprom, Eeprom)
+    check_type("init_switch", init_switch, bool)
+    check_clock(now)
     ram = Ram(
         address=0 if init_switch else eeprom.address,
         line_settings=LineSettings() if init_switch else eeprom.line_settings,
@@ -341,7 +392,7 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
         fed_at=now,
     )
     log = eeprom.log.resumed(now)
-    return State(eeprom if log is eeprom.log else evolve(eeprom, log=log), ram)
+    return State(eeprom if log is eeprom.log else evolve(eeprom, log=log), ram, clock=now)
 
 
 def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:

@@ -8,11 +8,15 @@ from itertools import pairwise
 
 from attrs import field
 
+from i7000.arguments import check_int, check_type
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
-from i7000.settings import BaudRate, LineSettings
+from i7000.settings import BaudRate, LineSettings, is_int, is_number
 
 __all__ = ["Uart", "hear_at"]
+
+
+_FASTEST = 1_000_000_000
 
 
 @frozen
@@ -30,13 +34,13 @@ class Uart:
     data_bits: int = field(default=8, kw_only=True)
 
     def __attrs_post_init__(self) -> None:
-        if self.rate <= 0:
-            raise EncodeError("rate", self.rate, "bits per second, more than 0", "1.11")
+        if not is_int(self.rate, 1, _FASTEST):
+            raise EncodeError("rate", self.rate, f"1..{_FASTEST} bits per second", "1.11")
         if self.parity not in ("N", "E", "O", "M", "S"):
             raise EncodeError("parity", self.parity, "N, E, O, M or S", "1.11")
-        if self.stop_bits not in (1, 1.5, 2):
+        if not is_number(self.stop_bits) or self.stop_bits not in (1, 1.5, 2):
             raise EncodeError("stop_bits", self.stop_bits, "1, 1.5 or 2", "1.11")
-        if self.data_bits not in (5, 6, 7, 8):
+        if not is_int(self.data_bits, 5, 8):
             raise EncodeError("data_bits", self.data_bits, "5 to 8", "1.11")
 
     @classmethod
@@ -48,6 +52,7 @@ class Uart:
         >>> Uart.of(LineSettings())
         Uart(rate=9600, parity='N', stop_bits=1, data_bits=8)
         """
+        check_type("line", line, LineSettings)
         rate = BaudRate.of(line.baud_rate)
         if not isinstance(rate, BaudRate):
             raise EncodeError("baud_rate", f"{rate:02X}", "03..0A", "1.11")
@@ -60,11 +65,18 @@ class Uart:
         return (1 + self.data_bits + (self.parity != "N") + self.stop_bits) / self.rate
 
     def parity_bit(self, byte: int) -> int:
-        """Tell the parity bit of a character."""
-        return {"E": byte.bit_count() & 1, "O": ~byte.bit_count() & 1, "M": 1, "S": 0}[self.parity]
+        """Tell the parity bit of a character; 0 without parity.
+
+        Errors: `EncodeError` for what is no byte.
+        """
+        check_int("byte", byte)
+        if not 0 <= byte <= 0xFF:
+            raise EncodeError("byte", byte, "00..FF", "1.11")
+        return {"E": byte.bit_count() & 1, "O": ~byte.bit_count() & 1, "M": 1}.get(self.parity, 0)
 
     def sounds_like(self, other: "Uart") -> bool:
         """Whether what one sends is what the other hears: stop bits are but the shortest silence."""
+        check_type("other", other, Uart)
         return (self.rate, self.parity, self.data_bits) == (other.rate, other.parity, other.data_bits)
 
 

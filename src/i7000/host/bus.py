@@ -11,12 +11,14 @@ they are. For this, what has come in has to be handed to `receive` before the ne
 
 from collections.abc import Iterable
 from math import inf
+from types import NoneType
 from typing import Any, Generic, Never, TypeVar, overload
 
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
-from i7000.errors import DecodeError, EncodeError, Noise
+from i7000.arguments import as_bytes, check_clock, check_type
+from i7000.errors import DecodeError, EncodeError, Noise, StateError
 from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
 from i7000.host.exchange import Exchange, answers, finish, split
@@ -98,8 +100,14 @@ class Bus(Generic[R]):
     """When the last character ended that was on the line, sent or heard."""
     quiet_until: float = -inf
     """The end of the pause that is owed."""
+    clock: float = field(default=-inf, eq=False, repr=False)
+    """The time of the last call, which makes no difference to what it is."""
 
     def __attrs_post_init__(self) -> None:
+        for name, kinds in _KINDS.items():
+            if not isinstance(getattr(self, name), kinds):
+                allowed = " or ".join(kind.__name__ for kind in kinds)
+                raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
         if not isinstance(self.line.baud_rate, BaudRate):
             raise EncodeError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
 
@@ -114,6 +122,28 @@ class Bus(Generic[R]):
         return max(_SILENT_CHARACTERS * self.character_time, _SHORTEST_SILENCE)
 
 
+_KINDS: dict[str, tuple[type, ...]] = {
+    "line": (LineSettings,),
+    "policy": (Policy,),
+    "echo": (bool,),
+    "pending": (Pending, NoneType),
+    "last": (Exchange, NoneType),
+    "rest": (bytes,),
+    "heard_at": (float, int),
+    "quiet_until": (float, int),
+    "clock": (float, int),
+}
+"""What each field of `Bus` can be."""
+
+
+def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - fields of `Bus`
+    """Return a changed copy; what happens to a bus is not looked at again, as `evolve` would."""
+    copy = object.__new__(Bus)
+    for name in _KINDS:
+        object.__setattr__(copy, name, changes[name] if name in changes else getattr(bus, name))
+    return copy
+
+
 @overload
 def send(bus: Bus[Any], command: dcon.Command[RD], profile: Profile, now: float) -> tuple[Bus[RD], bytes]: ...
 @overload
@@ -124,7 +154,8 @@ def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tu
     r"""Open a request, and tell the bytes to be written now: none if a pause is owed, then `wake` tells them later.
 
     Special: of a broadcast, `profile` tells only whether it has a checksum. What had begun to come in is forgotten.
-    Errors: `EncodeError` if the module does not have the command, or if the request before has no outcome yet.
+    Errors: `EncodeError` if the module does not have the command, and for a time that is not finite; `StateError` if
+        the request before has no outcome yet, and for a time before that of the last call.
     Manual: 2, 3.
 
     >>> from i7000 import Model
@@ -134,27 +165,42 @@ def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tu
     >>> receive(bus, b"!01050600\r", 0.1)[1][0].response.type_code
     <TypeCode.V_2_5: 5>
     """
+    check_type("bus", bus, Bus)
+    check_type("command", command, dcon.Command, dcon.Broadcast, modbus.Request)
+    check_type("profile", profile, Profile)
+    check_clock(now, bus.clock)
     if bus.pending:
-        raise EncodeError("command", command, "none before the one that was sent has its outcome", "2")
+        raise _still_open(bus.pending, now)
     exchange = Exchange[Any].of(command, profile)
     due = max(now, bus.quiet_until, bus.heard_at + _silence(bus, exchange))
-    bus = evolve(bus, pending=Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange)))
-    bus, events = _transmit(bus, now)
+    pending = Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange))
+    bus, events = _transmit(_changed(bus, pending=pending, clock=now), now)
     return bus, b"".join(event.wire for event in events)
+
+
+def _still_open(request: Pending[Any], now: float) -> StateError:
+    what = f"{request.exchange.command!r}, due in {max(0.0, request.due - now):.3f} s"
+    return StateError(f"a request is still open ({what}): call receive() or wake() until it has its outcome")
 
 
 def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
     """Take what has come in, all of it or any piece, and tell what it means.
 
     Shape: the events are in the order in which things happened.
+    Errors: `EncodeError` for a time that is not finite; `StateError` for one before that of the last call.
     Manual: 2, 3.
     """
+    check_type("bus", bus, Bus)
+    data = as_bytes("data", data)
+    check_clock(now, bus.clock)
     events: tuple[Event[R], ...] = ()
     if data:
         if bus.pending and bus.pending.due < now:
             bus, events = _expire(bus, bus.pending)
         bus, heard = _hear(bus, data, now)
         events += heard
+    elif now != bus.clock:
+        bus = _changed(bus, clock=now)
     if bus.pending and bus.pending.due <= now:
         bus, over = _expire(bus, bus.pending)
         events += over
@@ -175,6 +221,7 @@ def wake(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
 
 def next_deadline(bus: Bus[Any]) -> float | None:
     """Tell when to call `wake`, whatever comes in or does not; None: never, no request is open."""
+    check_type("bus", bus, Bus)
     return bus.pending.due if bus.pending else None
 
 
@@ -203,16 +250,16 @@ def _transmit(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Transmit, ...]]:
     exchange = bus.pending.exchange
     end = now + len(exchange.wire) * bus.character_time
     sent = evolve(bus.pending, sent=True, due=now + _allowance(bus, exchange), echoed=not bus.echo)
-    bus = evolve(bus, pending=sent, last=exchange, rest=b"", heard_at=end, quiet_until=end + exchange.pause)
+    bus = _changed(bus, pending=sent, last=exchange, rest=b"", heard_at=end, quiet_until=end + exchange.pause)
     return bus, (Transmit(exchange.wire),)
 
 
 def _hear(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
     found, rest = split(bus.last, bus.rest + data, echo=bus.echo)
-    bus = evolve(bus, rest=rest, heard_at=max(bus.heard_at, now))
+    bus = _changed(bus, rest=rest, heard_at=max(bus.heard_at, now), clock=now)
     if bus.pending and not bus.pending.sent:
         silent = min(now + _silence(bus, bus.pending.exchange), bus.pending.latest)
-        bus = evolve(bus, pending=evolve(bus.pending, due=max(bus.pending.due, silent)))
+        bus = _changed(bus, pending=evolve(bus.pending, due=max(bus.pending.due, silent)))
     bus, events = _take(bus, found)
     bus, ahead = _take_ahead(bus)
     return bus, (*events, *ahead)
@@ -224,7 +271,7 @@ def _take_ahead(bus: Bus[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
     if not (bus.rest and request and request.sent and request.echoed):
         return bus, ()
     found, rest = answers(request.exchange, bus.rest)
-    return _take(evolve(bus, rest=rest), found)
+    return _take(_changed(bus, rest=rest), found)
 
 
 def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Event[R], ...]]:
@@ -237,7 +284,7 @@ def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Ev
         elif not request or not request.sent:
             events.append(Late(frame))
         elif not request.echoed and frame.startswith(request.exchange.wire):
-            bus = evolve(bus, pending=evolve(request, echoed=True))
+            bus = _changed(bus, pending=evolve(request, echoed=True))
             surplus = frame[len(request.exchange.wire) :]  # a CRC stays good when 00 follows
             bus, after = _take(bus, finish(request.exchange, surplus, echo=False))
             events += after
@@ -249,7 +296,7 @@ def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Ev
             except DecodeError as error:
                 events.append(Rejected(frame, error.fault, str(error)))
             else:
-                bus = evolve(bus, pending=None)
+                bus = _changed(bus, pending=None)
     return bus, tuple(events)
 
 
@@ -257,14 +304,14 @@ def _expire(bus: Bus[R], request: Pending[R]) -> tuple[Bus[R], tuple[Event[R], .
     """End a try at its deadline: what came before it counts, even if nothing but silence shows that it is whole."""
     if not request.sent:
         return bus, ()
-    bus, events = _take(evolve(bus, rest=b""), finish(request.exchange, bus.rest, echo=bus.echo))
+    bus, events = _take(_changed(bus, rest=b""), finish(request.exchange, bus.rest, echo=bus.echo))
     if not bus.pending:
         return bus, events
     if not request.exchange.answered:
-        return evolve(bus, pending=None), (*events, Sent(request.exchange.command))
+        return _changed(bus, pending=None), (*events, Sent(request.exchange.command))
     over = request.due + bus.policy.grace
     if not request.retries:
-        return evolve(bus, pending=None, quiet_until=over), (*events, TimedOut(request.exchange.command))
+        return _changed(bus, pending=None, quiet_until=over), (*events, TimedOut(request.exchange.command))
     due = max(over, bus.heard_at + _silence(bus, request.exchange))
     again = Pending(request.exchange, request.retries - 1, due, due + _allowance(bus, request.exchange))
-    return evolve(bus, pending=again), events
+    return _changed(bus, pending=again), events

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from attrs import evolve
 
+from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus.channel_settings import (
     ReadChannelMask,
@@ -104,20 +105,29 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
     >>> encode(ReadInputRegisters(0x01, 0, 8)).hex()
     '010400000008f1cc'
     """
+    if not isinstance(message, Message):
+        check_type("message", message, Message)  # type: ignore[unreachable] # with types
+    if force is not False:
+        check_type("force", force, bool)
     if message.address == BROADCAST and not (isinstance(message, Request) and message.broadcast):
         raise EncodeError("address", BROADCAST, "1..247; 0 is for functions 05, 06, 0F, 10", message.section)
-    if profile is not None and not force:
-        if message.section in profile.refused:
-            raise EncodeError(
-                "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
-                f"{profile.name} has no {message.title} by Modbus",
-            )  # fmt: skip
-        message.check(profile)
+    if profile is not None:
+        if profile.__class__ is not Profile:
+            check_type("profile", profile, Profile)
+        if not force:
+            if message.section in profile.refused:
+                raise EncodeError(
+                    "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
+                    f"{profile.name} has no {message.title} by Modbus",
+                )  # fmt: skip
+            message.check(profile)
     return seal(message.layout.encode(message, profile))
 
 
 def is_answered(request: Request[Any]) -> bool:
     """Tell whether a response is to be waited for: not if the request is for all modules."""
+    if not isinstance(request, Request):
+        check_type("request", request, Request)  # type: ignore[unreachable] # with types
     return request.address != BROADCAST
 
 
@@ -132,6 +142,10 @@ def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
     >>> decode_request(bytes.fromhex("010400000008f1cc"), Profile(Model.M_7017))
     ReadInputRegisters(address=0x01, start=0, count=8)
     """
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
     body = unseal(frame)
     function = body[1]
     if body[0] > LAST_ADDRESS:
@@ -164,6 +178,12 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
     >>> decode_response(bytes.fromhex("018402c2c1"), ReadInputRegisters(0x01, 200, 1), Profile(Model.M_7017))
     ExceptionResponse(address=0x01, function=4, exception_code=2)
     """
+    if profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
+    if not isinstance(request, Request):
+        check_type("request", request, Request)  # type: ignore[unreachable] # with types
     body = unseal(frame)
     if len(body) < _SHORTEST_RESPONSE:
         raise DecodeError(Fault.LENGTH, frame, len(body), allowed="5 bytes at least", section="3")
@@ -213,16 +233,13 @@ _READS_OF_BITS = (ReadCoils, ReadDiscreteInputs)
 
 
 def _held_against(request: Any, response: Any, frame: bytes, profile: Profile) -> Any:  # noqa: ANN401 - of any class
-    """Hold the number of items against the request, look at the bits that are reserved, and drop those to spare."""
+    """Check the number of items against the request and the reserved bits; drop padding bits (E120)."""
     if isinstance(request, _READS_OF_WORDS):
         if len(response.values) != request.count:
             raise _count_error(frame, 2 * request.count, request.section)
     elif isinstance(request, _READS_OF_BITS):
         if len(response.values) != request.count + 7 >> 3 << 3:
             raise _count_error(frame, request.count + 7 >> 3, request.section)
-        if any(response.values[request.count :]):
-            at, allowed = len(frame) - 3, "spare bits zero"
-            raise DecodeError(Fault.RESERVED, frame, at, field="values", allowed=allowed, section=request.section)
         return evolve(response, values=response.values[: request.count])
     elif request.sub_function in _WITH_RESERVED_BITS and response.reserved_bits(request, profile):
         allowed = "reserved bits zero"

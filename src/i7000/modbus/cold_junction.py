@@ -5,6 +5,7 @@ Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; oth
 
 from attrs import field
 
+from i7000.arguments import check_type
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -61,6 +62,7 @@ class CjcOffset(Response):
 
     def celsius(self, request: "ReadCjcOffset") -> float:
         """Tell the offset in degrees Celsius, as the answer to `request`: of the module or of a channel."""
+        check_type("request", request, ReadCjcOffset)
         return offset_in_celsius(request.channel, self.offset)
 
     def reserved_bits(self, request: "ReadCjcOffset", profile: Profile) -> int:  # noqa: ARG002 - of the channel

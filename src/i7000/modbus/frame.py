@@ -5,6 +5,7 @@ Laws: `seal` and `unseal` are each other's inverse.
 
 import struct
 
+from i7000.arguments import as_bytes
 from i7000.errors import DecodeError, Fault
 
 __all__ = ["LONGEST_FRAME", "SHORTEST_FRAME", "crc16", "seal", "unseal"]
@@ -30,7 +31,7 @@ def _table_of_bytes() -> list[int]:
 _ONE = _table_of_bytes()
 """What one byte does to the CRC."""
 _TWO: list[int] = []
-"""What two bytes do to it; made when first needed."""
+"""What two bytes do to it; made when first needed, and put here in one step: threads may race."""
 
 
 class WordStructs(dict[int, struct.Struct]):
@@ -54,9 +55,11 @@ def crc16(data: bytes) -> int:
     >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
     'CCF1'
     """
+    if data.__class__ is not bytes:
+        data = as_bytes("data", data)
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
-        _TWO.extend([crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs])
+        _TWO[:] = [crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs]
     two = _TWO
     crc = _START
     length = len(data)
@@ -74,6 +77,8 @@ def seal(body: bytes) -> bytes:
     >>> seal(bytes.fromhex("010400000008")).hex()
     '010400000008f1cc'
     """
+    if body.__class__ is not bytes:
+        body = as_bytes("body", body)
     return body + _PACK(crc16(body))
 
 
@@ -82,6 +87,8 @@ def unseal(frame: bytes) -> bytes:
 
     Errors: `DecodeError` with `Fault.LENGTH` or `CRC`.
     """
+    if frame.__class__ is not bytes:
+        frame = as_bytes("frame", frame)
     if not SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME:
         allowed = f"{SHORTEST_FRAME} to {LONGEST_FRAME} bytes"
         raise DecodeError(Fault.LENGTH, frame, min(len(frame), LONGEST_FRAME), allowed=allowed, section="3")

@@ -5,7 +5,7 @@ one; ``name`` is a byte of the field of that name, ``name:2`` two bytes, high by
 Three tokens have a length of their own and stand last:
 
 * ``name:mask``: a bit for each channel, in 1, 2 or 3 bytes by the profile, high byte first;
-* ``name:bits``: a bit an item, the first in bit 0 of the first byte, spare bits zero;
+* ``name:bits``: a bit an item, the first in bit 0 of the first byte; padding bits are written as 0, and read as any;
 * ``name:words``: two bytes an item.
 
 The last two follow ``bytes``, the count of their bytes; ``count:2`` where no field has that name is that of items. The
@@ -307,8 +307,6 @@ def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]: 
     unpacked = f"WORDS[bytes >> 1].unpack_from(b, {size})" if words else f"unpack_bits(b[{size}:])"
     yield f"    {name} = {unpacked}"
     if items_are_counted and not words:
-        yield f"    if any({name}[count:]):"
-        yield f"        fail(b, Fault.RESERVED, len(b) - 1, {name!r}, 'spare bits zero')"
         yield f"    {name} = {name}[:count]"
 
 

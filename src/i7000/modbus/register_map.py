@@ -10,11 +10,12 @@ from typing import Any
 
 from attrs import evolve, field
 
+from i7000.arguments import as_tuple, check_type
 from i7000.errors import DecodeError, EncodeError, Fault, shown
 from i7000.frozen import frozen
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
-from i7000.modbus.request import ExceptionResponse, Request
+from i7000.modbus.request import ExceptionResponse, Request, Response
 from i7000.modbus.standard import (
     Coils,
     DiscreteInputs,
@@ -70,6 +71,8 @@ class RegisterMap:
 
     @rows.default
     def _rows_of_profile(self) -> tuple[Register, ...]:
+        if not isinstance(self.profile, Profile):
+            raise EncodeError("profile", self.profile, "a Profile", "3.4")
         return rows(self.profile)
 
     def __iter__(self) -> Iterator[Register]:
@@ -83,6 +86,8 @@ class RegisterMap:
             holding registers where `area` does not say otherwise. Of the two rows of a reading, its name finds the
             input.
         """
+        check_type("key", key, str, int)
+        check_type("area", area, Area, optional=True)
         place = _place(key, area)
         found = [
             row
@@ -127,6 +132,7 @@ class RegisterMap:
         Special: `big_endian` as in `decode`. ``host_watchdog_timeout_count`` can only be cleared, by 0, and
             ``host_watchdog_timed_out`` by 1.
         """
+        check_type("big_endian", big_endian, bool)
         row = self.find(key)
         if row.access is Access.READ:
             raise EncodeError("register", row.name, "it can only be read", "3.4")
@@ -156,9 +162,10 @@ class RegisterMap:
         Errors: `DecodeError` for another number of items (`Fault.COUNT`), for what is no item (`NUMBER`: words are ints
             0..65535, bits 0, 1 or bools), and for what is no value of the row; `wire` is empty.
         """
+        check_type("big_endian", big_endian, bool)
         row = self.find(key)
         first, count, one = self._span(row, key, channels)
-        values = values_of(row, tuple(items), first, count, self.profile, big_endian=big_endian)
+        values = values_of(row, as_tuple("items", items), first, count, self.profile, big_endian=big_endian)
         return values[0] if one else values
 
     def plan(self, address: int, keys: Iterable[str | int], *, big_endian: bool = False) -> "Plan":
@@ -166,8 +173,9 @@ class RegisterMap:
 
         Errors: `EncodeError` too for two things of one name: the two rows of a reading, two channels.
         """
+        check_type("big_endian", big_endian, bool)
         wanted: dict[str, tuple[Register, ReadItems, str | int]] = {}
-        for key in keys:
+        for key in as_tuple("keys", keys):
             row, request = self.find(key), self.read(address, key)
             if wanted.setdefault(row.name, (row, request, key))[:2] != (row, request):
                 reason = f"{row.name} is asked for twice, and values go by name"
@@ -237,8 +245,12 @@ class Plan:
         """Tell the values by name; an exception is the value of all that it refused.
 
         Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`,
-            and for what does not answer its request: `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
+            and for what does not answer its request, silence (None) included: `Fault.FUNCTION`, `ADDRESS`,
+            `COUNT`.
         """
+        responses = as_tuple("responses", responses)
+        for response in responses:
+            check_type("responses", response, Response, optional=True)
         if len(responses) != len(self.requests):
             raise EncodeError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
         for request, response in zip(self.requests, responses, strict=True):

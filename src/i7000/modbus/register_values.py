@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import Any
 
+from i7000.arguments import as_tuple, check_int, check_type
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
 from i7000.modbus.module_settings import check_line
@@ -66,7 +67,9 @@ def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tup
     >>> readings([0x7FFF, 0x8000], Profile(Model.M_7017))[1].value
     -10.0
     """
-    values = tuple(words)
+    check_type("profile", profile, Profile)
+    check_int("channel", channel)
+    values = as_tuple("words", words)
     _check_items("words", values, 0xFFFF)
     return _readings(values, channel, profile)
 
@@ -82,7 +85,11 @@ def words(values: Iterable[Reading], profile: Profile, *, channel: int = 0) -> t
     >>> words([Reading(-10.0, Unit.VOLT)], Profile(Model.M_7017))
     (32768,)
     """
-    found = tuple(values)
+    check_type("profile", profile, Profile)
+    check_int("channel", channel)
+    found = as_tuple("values", values)
+    for value in found:
+        check_type("values", value, Reading)
     types = profile.type_codes[channel : channel + len(found)] if channel >= 0 else ()
     if len(types) != len(found):
         raise EncodeError("channel", channel, f"channels whose types are known: {len(profile.type_codes)}", "3.5")

@@ -37,8 +37,8 @@ class Coils(Response):
     """Tell coils.
 
     Wire: ``01 bytes values:bits``
-    Shape: as many bits as were asked for; read without its request, the spare bits of the last byte too.
-    Manual: 3.4; E55.
+    Shape: as many bits as were asked for; read without its request, the padding bits of the last byte too.
+    Manual: 3.4; E55, E120.
     """
 
     pdu = "01 bytes values:bits"
@@ -70,8 +70,8 @@ class DiscreteInputs(Response):
     """Tell discrete inputs.
 
     Wire: ``02 bytes values:bits``
-    Shape: as many bits as were asked for; read without its request, the spare bits of the last byte too.
-    Manual: 3.1; E55.
+    Shape: as many bits as were asked for; read without its request, the padding bits of the last byte too.
+    Manual: 3.1; E55, E120.
     """
 
     pdu = "02 bytes values:bits"
@@ -253,7 +253,8 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
 
     Wire: ``0F start:2 count:2 bytes values:bits`` -> ``0F start:2 count:2``
     Range: 1 to 1968 of them, none beyond address 65535.
-    Manual: 3.4; E55.
+    Special: padding bits are written as 0, and dropped when read, whatever they are.
+    Manual: 3.4; E55, E120.
     """
 
     pdu = "0F start:2 count:2 bytes values:bits"

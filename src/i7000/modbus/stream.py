@@ -10,6 +10,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any, NamedTuple
 
+from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
 from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16
@@ -133,12 +134,21 @@ def split(
         longer: when the line has been silent for 3.5 characters, `flush` the rest.
     Manual: 3; E61.
     """
+    if buffer.__class__ is not bytes:
+        buffer = as_bytes("buffer", buffer)
+    if side.__class__ is not Side:
+        check_type("side", side, Side)
+    if profile is not None and profile.__class__ is not Profile:
+        check_type("profile", profile, Profile)
     size = len(buffer)
     if request is None and size and 0 < buffer[0] <= LAST_ADDRESS:
-        function = buffer[1] if size > 1 else _MISSING
-        lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
+        starts = _BY_START[side]
+        third = buffer[2] if size > 2 else _MISSING
+        lengths = starts[buffer[1] if size > 1 else _MISSING][third]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
+    if request is not None:
+        check_type("request", request, Request)
     return _scan(buffer, side, profile, request, final=False)
 
 
@@ -150,7 +160,10 @@ def flush(
     Special: with the silence for a mark, a frame of an unknown function is one too, if it is all that is left: a module
         answers it with an exception.
     """
-    return _scan(rest, side, profile, request, final=True)[0]
+    check_type("side", side, Side)
+    check_type("profile", profile, Profile, optional=True)
+    check_type("request", request, Request, optional=True)
+    return _scan(as_bytes("rest", rest), side, profile, request, final=True)[0]
 
 
 def drop_echo(received: bytes, sent: bytes) -> bytes | None:
@@ -158,6 +171,7 @@ def drop_echo(received: bytes, sent: bytes) -> bytes | None:
 
     Errors: `DecodeError` with `Fault.ECHO` where something else came.
     """
+    received, sent = as_bytes("received", received), as_bytes("sent", sent)
     for at, (byte, expected) in enumerate(zip(received, sent, strict=False)):
         if byte != expected:
             raise DecodeError(Fault.ECHO, received, at, allowed=sent.hex(" "), section="3")
@@ -180,7 +194,7 @@ def _scan(  # noqa: C901, PLR0912 - one loop
         known = None
         if by_start is not None and at + 2 < size and buffer[at] in _MODULES:
             known = by_start[buffer[at + 1]][buffer[at + 2]]
-        if known == () and noise_at < at and not final:
+        if known == () and noise_at < at and (not final or size - at > LONGEST_FRAME):
             at += 1
             continue
         if known:
@@ -217,11 +231,13 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
                 return at + length
         elif not final:
             return None
-    return len(buffer) if final and _is_whole(buffer[at:]) else at
+    return len(buffer) if final and _ends_as_frame(buffer, at) else at
 
 
-def _is_whole(frame: bytes) -> bool:
-    return SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME and frame[0] <= LAST_ADDRESS and not crc16(frame)
+def _ends_as_frame(buffer: bytes, at: int) -> bool:
+    """Whether all that is left is one frame, of whatever function."""
+    whole = SHORTEST_FRAME <= len(buffer) - at <= LONGEST_FRAME and buffer[at] <= LAST_ADDRESS
+    return whole and not crc16(buffer[at:])
 
 
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)

@@ -1,0 +1,79 @@
+"""The arguments of public functions: one rule for all of them.
+
+Laws: bytes, bytearray and memoryview are taken as bytes, and nothing that is returned shares memory with them. An
+argument of another type than the function works on is an `ArgumentError`; a value out of its range is none.
+"""
+
+from collections.abc import Iterable
+from typing import Any, TypeVar
+
+from i7000.errors import ArgumentError, EncodeError, StateError
+
+__all__ = ["as_bytes", "as_tuple", "check_clock", "check_int", "check_type"]
+
+T = TypeVar("T")
+
+LARGEST_FLOAT = float.fromhex("0x1.fffffffffffffp+1023")
+_BYTES_LIKE = "bytes, bytearray or memoryview"
+_BYTES_LIKE_KINDS = (bytes, bytearray, memoryview)
+_NUMBERS = (int, float)
+
+
+def as_bytes(name: str, value: object) -> bytes:
+    """Return a bytes-like argument as bytes.
+
+    Errors: `ArgumentError` for another type, and for a memoryview that was released.
+    """
+    if value.__class__ is bytes:
+        return value
+    if not isinstance(value, _BYTES_LIKE_KINDS):
+        raise ArgumentError(name, value, _BYTES_LIKE)
+    try:
+        return bytes(value)
+    except ValueError:
+        raise ArgumentError(name, value, f"{_BYTES_LIKE}, not released") from None
+
+
+def as_tuple(name: str, values: Iterable[T]) -> tuple[T, ...]:
+    """Return the items of an iterable argument.
+
+    Errors: `ArgumentError` for what is not iterable.
+    """
+    try:
+        items = iter(values)
+    except TypeError:
+        raise ArgumentError(name, values, "an iterable") from None
+    return tuple(items)
+
+
+def check_type(name: str, value: object, *kinds: Any, optional: bool = False) -> None:  # noqa: ANN401 - classes
+    """Check that an argument is an instance of one of `kinds`; or None, if it is optional.
+
+    Errors: `ArgumentError`.
+    """
+    if not isinstance(value, kinds) and not (optional and value is None):
+        names = [kind.__name__ for kind in kinds] + ["None"] * optional
+        raise ArgumentError(name, value, " or ".join(names))
+
+
+def check_int(name: str, value: object) -> None:
+    """Check that an argument is an int, and no truth value.
+
+    Errors: `ArgumentError`.
+    """
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise ArgumentError(name, value, "int")
+
+
+def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
+    """Check a time in seconds, of a clock that was at `before` when it was last read.
+
+    Errors: `ArgumentError` for what is no number, `EncodeError` for one that is not finite, `StateError` for a clock
+        that went back.
+    """
+    if not isinstance(now, _NUMBERS) or isinstance(now, bool):
+        raise ArgumentError("now", now, "int or float")
+    if not abs(now) <= LARGEST_FLOAT:
+        raise EncodeError("now", now, "a finite number of seconds", "")
+    if now < before:
+        raise StateError(f"the clock went back: now is {now!r}, and it was {before!r} before")

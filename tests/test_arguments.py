@@ -1,0 +1,224 @@
+"""Arguments of the wrong type are refused in one way everywhere, and bytes-like ones are taken as bytes."""
+
+from collections.abc import Callable
+from inspect import signature
+from typing import Any
+
+import pytest
+
+from i7000 import (
+    ArgumentError,
+    DecodeError,
+    EncodeError,
+    I7000Error,
+    Model,
+    Profile,
+    Reading,
+    StateError,
+    Unit,
+    dcon,
+    device,
+    host,
+    modbus,
+)
+from i7000.arguments import as_bytes
+from tests.calls import CALLS, LEFT_OUT, Call, surface
+
+NUMBERS = (None, True, -1, 300, 10**400, 1.5, float("nan"), float("inf"))
+OTHERS: tuple[Any, ...] = (
+    "text", "", (), (None,), ([],), [], {}, {1: 2}, set(), frozenset(), Model, Profile, Profile.has,
+    Model.I_7018, Unit.VOLT, dcon.ReadConfiguration, dcon.ReadConfiguration(0x01), modbus.ReadCoils(0x01, 0, 1),
+    Reading(1.0, Unit.VOLT), range(3), range(0), dcon,
+)  # fmt: skip
+LIKE_BYTES = (b"", b"$012\r", bytearray(b"$012\r"), memoryview(b"$012\r"), memoryview(b"1234")[::2])
+CHECKED_BY_TYPE = (
+    bytes, bool, float, Profile, dcon.Message, modbus.Message, modbus.Side, host.Bus, device.State, device.Signals,
+    device.Eeprom, device.Ear, device.Uart,
+)  # fmt: skip
+
+each_call = pytest.mark.parametrize("call", CALLS, ids=lambda call: call.name)
+
+
+def test_every_public_function_method_and_constructor_is_called_or_left_out_with_a_reason() -> None:
+    called = [call.name for call in CALLS]
+
+    assert sorted([*called, *LEFT_OUT]) == sorted(set(surface()))
+
+
+@each_call
+def test_a_sound_call_is_carried_out(call: Call) -> None:
+    assert call.function(*call.args, **call.kwargs) == call.function(*call.args, **call.kwargs)
+
+
+def outcome(function: Any, value: object) -> object:
+    """What a call gives, if it can be hashed, or the error that refuses its argument."""
+    try:
+        found = function(value)
+    except I7000Error as error:
+        return str(error)
+    return tuple(found.items()) if isinstance(found, dict) else found
+
+
+@each_call
+def test_an_argument_of_any_type_is_taken_or_refused_with_an_error_of_ours(call: Call) -> None:
+    for _, function in call.arguments():
+        for value in (*NUMBERS, *OTHERS, *LIKE_BYTES, object(), [None], iter(())):
+            assert isinstance(hash(outcome(function, value)), int), value
+
+
+@each_call
+def test_what_a_function_works_on_is_checked_by_its_type(call: Call) -> None:
+    for argument, function in call.arguments():
+        if isinstance(argument, CHECKED_BY_TYPE):
+            with pytest.raises(EncodeError if call.constructs else ArgumentError):
+                function(object())
+
+
+@each_call
+def test_bytes_like_arguments_are_taken_as_bytes_and_not_kept(call: Call) -> None:
+    for argument, function in call.arguments():
+        if isinstance(argument, bytes) and not call.constructs:
+            buffer = bytearray(argument)
+            found = function(buffer)
+            buffer[:] = bytes(len(buffer))
+
+            assert function(argument) == found == function(memoryview(argument))
+            hash(found)
+
+
+def test_a_subclass_of_bytes_is_taken_as_plain_bytes() -> None:
+    class Named(bytes):
+        """Bytes with a name."""
+
+    assert type(as_bytes("frame", Named(b"$012\r"))) is bytes
+
+
+def test_a_memoryview_that_was_released_is_refused() -> None:
+    view = memoryview(b"$012\r")
+    view.release()
+
+    with pytest.raises(ArgumentError, match=r"frame cannot be .*: bytes, bytearray or memoryview, not released"):
+        dcon.candidates(view)  # type: ignore[arg-type]
+
+
+def test_an_error_names_the_argument_what_was_given_and_what_is_allowed() -> None:
+    with pytest.raises(ArgumentError) as caught:
+        dcon.candidates("$012\r")  # type: ignore[arg-type]
+
+    assert str(caught.value) == r"frame cannot be '$012\r' (str): bytes, bytearray or memoryview"
+    assert (caught.value.argument, caught.value.value) == ("frame", "$012\r")
+    assert caught.value.allowed == "bytes, bytearray or memoryview"
+    assert isinstance(caught.value, TypeError)
+
+
+def test_an_optional_argument_can_be_none() -> None:
+    with pytest.raises(ArgumentError, match=r"profile cannot be 5 .*: Profile or None"):
+        modbus.flush(b"", profile=5)  # type: ignore[arg-type]
+
+    assert modbus.flush(b"", profile=None) == ()
+
+
+class Unwritable:
+    """A value of which no text can be made."""
+
+    def __repr__(self) -> str:
+        raise RuntimeError
+
+
+def test_a_value_that_cannot_be_written_is_refused_all_the_same() -> None:
+    with pytest.raises(ArgumentError, match=r"frame cannot be a value that cannot be written, of Unwritable"):
+        dcon.candidates(Unwritable())  # type: ignore[arg-type]
+
+
+def test_a_text_that_is_no_reading_is_told_as_such() -> None:
+    with pytest.raises(ArgumentError, match=r"values cannot be 'text' \(str\): Reading"):
+        dcon.fields(["text"] * 8, Profile(Model.I_7018))  # type: ignore[list-item]
+
+
+@pytest.mark.parametrize("channel", [-1, -2, -8])
+def test_a_channel_is_not_counted_from_the_end(channel: int) -> None:
+    with pytest.raises(EncodeError, match="channel cannot be"):
+        dcon.field(Reading(1.0, Unit.VOLT), channel, Profile(Model.I_7018))
+    with pytest.raises(DecodeError, match="type_codes"):
+        dcon.reading(dcon.AnalogInput("+1.0000"), channel, Profile(Model.I_7018))
+
+
+# --- clocks -----------------------------------------------------------------------------------------------------------
+
+PROFILE = Profile(Model.I_7018)
+READ = dcon.ReadAnalogInput(0x01, 0)
+MODULE = device.power_on(device.factory(Model.I_7018), now=5.0)
+BUS = device.Bus((MODULE,)).step(b"", (device.Signals(),), 5.0)[0]
+OPEN, _ = host.send(host.Bus[Any](), READ, PROFILE, 5.0)
+SIGNALS = device.Signals()
+CLOCKS: dict[str, Callable[[float], Any]] = {
+    "host.send": lambda now: host.send(host.wake(OPEN, 5.0)[0], READ, PROFILE, now),
+    "host.receive": lambda now: host.receive(OPEN, b">", now),
+    "host.wake": lambda now: host.wake(OPEN, now),
+    "device.step": lambda now: device.step(MODULE, b"$012\r", SIGNALS, now),
+    "device.advance": lambda now: device.advance(MODULE, SIGNALS, now),
+    "device.Bus.step": lambda now: BUS.step(b"$012\r", (SIGNALS,), now),
+    "device.Bus.hear": lambda now: BUS.hear(device.Ear(), b"$", (SIGNALS,), now),
+    "device.Bus.silence": lambda now: BUS.silence(device.Ear(), (SIGNALS,), now),
+}
+
+each_clock = pytest.mark.parametrize("call", CLOCKS.values(), ids=CLOCKS)
+
+
+def test_every_function_with_a_clock_is_tried() -> None:
+    with_clock = {call.name for call in CALLS if "now" in signature(call.function).parameters}
+
+    assert with_clock - set(CLOCKS) == {"device.power_on"}
+
+
+@each_clock
+@pytest.mark.parametrize("now", [float("nan"), float("inf"), float("-inf"), 10**400])
+def test_a_time_that_is_not_finite_is_refused(call: Callable[[float], Any], now: float) -> None:
+    with pytest.raises(EncodeError, match=r"now cannot be .*: a finite number of seconds"):
+        call(now)
+
+
+@each_clock
+@pytest.mark.parametrize("now", ["5", None, True, 5j])
+def test_what_is_no_time_is_refused(call: Callable[[float], Any], now: Any) -> None:
+    with pytest.raises(ArgumentError, match=r"now cannot be .*: int or float"):
+        call(now)
+
+
+@each_clock
+def test_a_clock_that_goes_back_is_refused(call: Callable[[float], Any]) -> None:
+    with pytest.raises(StateError, match=r"the clock went back: now is 4\.5, and it was 5\.0 before"):
+        call(4.5)
+
+
+@pytest.mark.parametrize("now", [float("nan"), float("inf"), 10**400])
+def test_no_module_gets_power_at_a_time_that_is_not_finite(now: float) -> None:
+    with pytest.raises(EncodeError, match=r"now cannot be .*: a finite number of seconds"):
+        device.power_on(device.factory(Model.I_7018), now=now)
+
+
+def test_the_clock_of_a_line_goes_on_with_every_call() -> None:
+    bus, _ = host.wake(host.Bus[Any](), 7.0)
+
+    with pytest.raises(StateError):
+        host.send(bus, READ, PROFILE, 6.0)
+
+
+def test_the_clock_of_a_module_goes_on_with_what_is_not_for_it() -> None:
+    module, _ = device.step(MODULE, b"$022\r", SIGNALS, 7.0)
+
+    with pytest.raises(StateError):
+        device.step(module, b"$012\r", SIGNALS, 6.0)
+
+
+def test_the_clock_of_a_bus_goes_on_with_what_is_no_frame_yet() -> None:
+    bus, ear, _ = BUS.hear(device.Ear(), b"$0", (SIGNALS,), 7.0)
+
+    with pytest.raises(StateError):
+        bus.hear(ear, b"12\r", (SIGNALS,), 6.0)
+
+
+def test_a_module_without_power_forgets_the_clock() -> None:
+    again = device.power_on(device.step(MODULE, b"", SIGNALS, 9.0)[0].eeprom, now=1.0)
+
+    assert device.step(again, b"$01M\r", SIGNALS, 1.0)[1] == b"!017018\r"
