@@ -3,7 +3,7 @@
 import pytest
 from attrs import frozen
 
-from i7000 import DecodeError, Fault, Model, Profile, dcon
+from i7000 import DecodeError, EncodeError, Fault, Model, Profile, dcon
 from i7000.dcon import layout
 
 
@@ -32,3 +32,14 @@ def test_a_name_with_a_leading_character_is_refused() -> None:
         dcon.decode_response(b"!0170#18\r", dcon.ReadModuleName(0x01), Profile(Model.I_7018))
 
     assert caught.value.fault is Fault.CHARACTER
+
+
+def test_a_calibrated_channel_has_one_digit_in_every_mode() -> None:
+    profile = Profile(Model.M_7017Z, single_ended=True)
+
+    assert dcon.encode(dcon.CalibrateChannelZero(0x01, 5), profile, force=True) == b"$010C5\r"
+
+
+def test_a_calibrated_channel_of_two_digits_is_refused() -> None:
+    with pytest.raises(EncodeError, match=r"channel cannot be 16: 0\.\.F"):
+        dcon.CalibrateCurrentChannelSpan(0x01, 16)
