@@ -150,11 +150,13 @@ def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool
     return fields
 
 
+_LEGACY_TEXT_FIELD = f"[-+]?[^-+ ]+|[-+]| {{1,{_TEXT_WIDTH}}}"
 _LEGACY_FIELD = {
-    DataFormat.ENGINEERING: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.PERCENT: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.HEX: r"\+9999|-0000|.{1,4}",
+    DataFormat.ENGINEERING: _LEGACY_TEXT_FIELD,
+    DataFormat.PERCENT: _LEGACY_TEXT_FIELD,
+    DataFormat.HEX: "[-+].{0,4}|.{1,4}",
 }
+"""From a sign to the next one or to blanks; in hex, five characters behind a sign and four elsewhere."""
 
 
 def _not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:

@@ -25,6 +25,12 @@ READINGS = {
     "percent": r"[+-]\d{3}\.\d\d|[+-]9999\.9| {7}",
     "hex": r"[0-9A-F]{4}| {4}",
 }
+OLD_SENTINELS = ("+9999", "-0000")
+OLD_FIELDS = {
+    "engineering": r" {1,7}|[+-]?[^+ -]+|[+-]",
+    "percent": r" {1,7}|[+-]?[^+ -]+|[+-]",
+    "hex": r"[+-].{0,4}|.{1,4}",
+}
 Piece: TypeAlias = "str | Record"
 Misfit: TypeAlias = tuple[int, str]
 """A place in the body, and the fault there."""
@@ -46,7 +52,21 @@ def width(piece: Piece, profile: Record) -> tuple[int, int]:
     if piece["name"] in ("name", "version"):
         return 1, 6
     size = digits(piece, profile)
+    if piece["name"] in ("values", "value") and is_old(profile):
+        fields = size // (4 if profile["data_format"] == "hex" else 7)
+        return 1, fields * (5 if profile["data_format"] == "hex" else 7)
     return size, size
+
+
+def version(text: str | None) -> tuple[int, ...] | None:
+    """A firmware as numbers that can be compared."""
+    return None if text is None else tuple(map(int, text[1:].split(".")))
+
+
+def is_old(profile: Record) -> bool:
+    """Whether readings out of range have five characters."""
+    firmware = version(profile["firmware"])
+    return profile["model"].startswith("I-7018") and firmware is not None and firmware <= (1, 4)
 
 
 def digits(field: Record, profile: Record) -> int:
@@ -79,17 +99,27 @@ def field_fault(field: Record, text: str, profile: Record) -> Misfit | None:
     if name == "temperature":
         return None if re.fullmatch(r"[+-]\d{4}\.\d", text, re.ASCII) else (0, "number")
     if name in ("values", "value"):
-        form = "hex" if field["digits"] == 4 else profile["data_format"]
-        size = 4 if form == "hex" else 7
-        fields = [text[at : at + size] for at in range(0, len(text), size)]
-        fault = "character" if form == "hex" else "number"
-        wrong = (at for at, one in enumerate(fields) if not re.fullmatch(READINGS[form], one, re.ASCII))
-        return next(((at * size, fault) for at in wrong), None)
+        return readings_fault(field, text, profile)
     signed = name == "offset"
     if signed and text[0] not in "+-":
         return 0, "number"
     wrong = (at for at, digit in enumerate(text[signed:], signed) if digit not in "0123456789ABCDEF")
     return next(((at, "character") for at in wrong), None)
+
+
+def readings_fault(field: Record, text: str, profile: Record) -> Misfit | None:
+    """The first reading that is none, or another number of them than channels."""
+    form = "hex" if field["digits"] == 4 else profile["data_format"]
+    size = 4 if form == "hex" else 7
+    old = is_old(profile)
+    fields = re.findall(OLD_FIELDS[form], text) if old else re.findall(f".{{1,{size}}}", text)
+    if len(fields) != digits(field, profile) // size:
+        return -1, "length"
+    fault = "character" if form == "hex" else "number"
+    for one in fields:
+        if not re.fullmatch(READINGS[form], one, re.ASCII) and not (old and one in OLD_SENTINELS):
+            return 0, fault
+    return None
 
 
 def misfit(syntax: str, fields: list[Record], body: str, profile: Record) -> Misfit | None:
@@ -126,10 +156,7 @@ def has(row: Record, profile: Record) -> bool:
     """Whether the module has a command."""
     if profile["model"] not in row["models"]:
         return False
-    since, firmware = (
-        version and tuple(map(int, version[1:].split(".")))
-        for version in (row["models"][profile["model"]], profile["firmware"])
-    )
+    since, firmware = version(row["models"][profile["model"]]), version(profile["firmware"])
     return since is None or firmware is None or firmware >= since
 
 
