@@ -27,6 +27,7 @@ SCHEMAS = {
     "vectors/modbus": "modbus_vectors",
     "vectors/readings": "reading_vectors",
     "vectors/readings/legacy.json": "legacy_vectors",
+    "vectors/registers": "register_vectors",
     "vectors/frames/checksums.json": "checksum_vectors",
     "vectors/frames/split.json": "split_vectors",
     "vectors/frames/rtu_split.json": "rtu_split_vectors",

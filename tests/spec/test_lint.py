@@ -37,6 +37,7 @@ PREFIXES = {
     "rtu_split_vectors": "rtu-split",
     "modbus_vectors": r"modbus-([0-9A-F]{2}|46-[0-9A-F]{2}|3\.4\.\d|frame)",
     "crc_vectors": "crc",
+    "register_vectors": "register",
 }
 
 
