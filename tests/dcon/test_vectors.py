@@ -4,9 +4,10 @@ from typing import Any
 
 import pytest
 
-from i7000 import DecodeError, EncodeError, Noise, dcon
+from i7000 import DataFormat, DecodeError, EncodeError, Noise, TypeCode, dcon
 from i7000.dcon.codec import response_candidates
 from i7000.dcon.frame import checksum, seal, split, unseal
+from i7000.readings import decode_field
 from tests.spec.lint import Record
 from tests.vectors import dcon_vectors, message_of, parameters, profile_of
 
@@ -93,6 +94,30 @@ def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record
         decode()
 
     assert vector["fault"] == caught.value.fault.value
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/readings/rejected.json"))
+def test_a_field_that_is_no_reading_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
+    data_format = DataFormat[vector["format"].upper()]
+
+    with pytest.raises(DecodeError) as caught:
+        decode_field(vector["text"], TypeCode(int(vector["type_code"], 16)), data_format)
+
+    assert vector["fault"] == caught.value.fault.value
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/readings/channels.json"))
+def test_a_field_is_read_with_the_type_of_its_channel(vector: Record) -> None:
+    command, response = message_of(vector["command"]), message_of(vector["response"])
+    profile = profile_of(vector["profile"])
+
+    single = isinstance(command, dcon.ReadAnalogInput)
+    found = [dcon.reading(response, command.channel, profile)] if single else list(dcon.readings(response, profile))
+
+    assert response == dcon.decode_response(dcon.encode(response, profile), command, profile)
+    assert vector["values"] == [reading.value for reading in found]
+    assert vector["units"] == [reading.unit for reading in found]
+    assert vector["statuses"] == [reading.status.value for reading in found]
 
 
 @pytest.mark.parametrize("vector", parameters("vectors/frames/checksums.json"))

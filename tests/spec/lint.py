@@ -27,6 +27,8 @@ SCHEMAS = {
     "vectors/modbus": "modbus_vectors",
     "vectors/readings": "reading_vectors",
     "vectors/readings/legacy.json": "legacy_vectors",
+    "vectors/readings/rejected.json": "reading_reject_vectors",
+    "vectors/readings/channels.json": "channel_vectors",
     "vectors/registers": "register_vectors",
     "vectors/frames/checksums.json": "checksum_vectors",
     "vectors/frames/split.json": "split_vectors",
