@@ -150,10 +150,7 @@ def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool
     return fields
 
 
-_LEGACY_TEXT_FIELD = f"[-+]?[^-+ ]+|[-+]| {{1,{_TEXT_WIDTH}}}"
-_LEGACY_FIELD = {
-    DataFormat.ENGINEERING: _LEGACY_TEXT_FIELD,
-    DataFormat.PERCENT: _LEGACY_TEXT_FIELD,
+_LEGACY_FIELD = dict.fromkeys(DataFormat, f"[-+]?[^-+ ]+|[-+]| {{1,{_TEXT_WIDTH}}}") | {
     DataFormat.HEX: "[-+].{0,4}|.{1,4}",
 }
 """From a sign to the next one or to blanks; in hex, five characters behind a sign and four elsewhere."""
