@@ -25,6 +25,11 @@ READINGS = {
     "percent": r"[+-]\d{3}\.\d\d|[+-]9999\.9| {7}",
     "hex": r"[0-9A-F]{4}| {4}",
 }
+VERSION = r"[A-Z]\d\.\d\d?"
+OTHER_ANSWERS = (
+    rf"(?!701[789])([0-9A-F]{{4}}|[0-9A-F]{{6}})|[0-9A-F]{{2}}|[01][0-9A-F]{{2}}|[012]|[+-][0-9A-F]{{4}}"
+    rf"|C[0-9A-F]{{1,2}}R[0-9A-F]{{2}}|{VERSION}"
+)
 OLD_SENTINELS = ("+9999", "-0000")
 OLD_FIELDS = {
     "engineering": r" {1,7}|[+-]?[^+ -]+|[+-]",
@@ -50,7 +55,7 @@ def width(piece: Piece, profile: Record) -> tuple[int, int]:
     if isinstance(piece, str):
         return 1, 1
     if piece["name"] in ("name", "version"):
-        return 1, 6
+        return (1, 6) if piece["name"] == "name" else (4, 5)
     size = digits(piece, profile)
     if piece["name"] in ("values", "value") and is_old(profile):
         fields = size // (4 if profile["data_format"] == "hex" else 7)
@@ -177,6 +182,13 @@ def command_of(body: str, profile: Record) -> tuple[str, str]:
     return "", max(found, key=lambda wrong: wrong[0])[1]
 
 
+def is_other_text(response: str, text: str) -> bool:
+    """Whether a name is what another command is answered, or a version has not the form of one."""
+    if response == "ModuleName":
+        return re.fullmatch(OTHER_ANSWERS, text, re.ASCII) is not None
+    return response == "FirmwareVersion" and re.fullmatch(VERSION, text, re.ASCII) is None
+
+
 def response_fault(row: Record, sent: Record, body: str, profile: Record) -> str:
     """The fault of a response to a command with these fields, or an empty text."""
     syntax, fields = row["response_syntax"], row["response_fields"]
@@ -187,6 +199,8 @@ def response_fault(row: Record, sent: Record, body: str, profile: Record) -> str
         return wrong[1]
     if "AA" not in syntax:
         return ""
+    if body[0] != "?" and is_other_text(row["response"], body[3:]):
+        return "value"
     expected = sent["new_address"] if "new_address" in sent and body[0] == "!" else sent["address"]
     if int(body[1:3], 16) != expected and not (row["section"] == "2.10" and expected == 0):
         return "address"
