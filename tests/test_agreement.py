@@ -272,14 +272,15 @@ def test_a_reading_is_what_the_vector_says(vector: Record) -> None:
     reading = Reading(vector["value"], code.unit, Status(vector["status"]))
 
     assert vector["unit"] == code.unit
-    assert reading == decode_field(vector["text"], code, data_format, lenient=True)
-    if "lenient" in vector["flags"]:
+    if vector["direction"] != "encode":
+        assert reading == decode_field(vector["text"], code, data_format, lenient=True)
+    if vector["direction"] != "encode" and "lenient" in vector["flags"]:
         with pytest.raises(DecodeError) as caught:
             decode_field(vector["text"], code, data_format)
         assert caught.value.fault is Fault.NUMBER
-    else:
+    elif vector["direction"] != "encode":
         assert reading == decode_field(vector["text"], code, data_format)
-    if vector["direction"] == "both":
+    if vector["direction"] != "decode":
         assert vector["text"] == encode_field(reading, code, data_format)
 
 

@@ -127,11 +127,10 @@ def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool
     return fields
 
 
-_LEGACY_FIELD = {
-    DataFormat.ENGINEERING: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.PERCENT: r"(?:\+9999|-0000)(?=[-+ ]|$)|.{1,7}",
-    DataFormat.HEX: r"\+9999|-0000|.{1,4}",
+_LEGACY_FIELD = dict.fromkeys(DataFormat, f"[-+]?[^-+ ]+|[-+]| {{1,{TEXT_WIDTH}}}") | {
+    DataFormat.HEX: "[-+].{0,4}|.{1,4}",
 }
+"""From a sign to the next one or to blanks; in hex, five characters behind a sign and four elsewhere."""
 
 
 def not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:

@@ -61,7 +61,6 @@ def configuration(
         (dcon.ReadChannelTypeCode(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelZero(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelSpan(0x01, 8), M_7019R, "channel cannot be 8"),
-        (dcon.CalibrateCurrentChannelSpan(0x01, 16), Profile(Model.M_7017mC_16), "channel cannot be 16"),
         (dcon.SetChannelMask(0x01, 0x100), I_7017, r"mask cannot be '100': bits 0\.\.7: I-7017"),
         (dcon.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9"),
         (dcon.Diagnostics(0x01, 0x100), M_7019R, "mask cannot be '100'"),
@@ -194,6 +193,7 @@ def test_a_flag_is_true_or_false() -> None:
         (b"~*\r", Fault.LENGTH, 2),
         (b"x" * 1_000_000, Fault.LENGTH, 256),
         (b"$" * 256 + b"\r", Fault.LENGTH, 256),
+        (b"~0aOABCDEFG\r", Fault.LENGTH, 10),
     ],
     ids=lambda value: repr(value)[:20],
 )

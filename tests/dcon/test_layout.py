@@ -3,7 +3,7 @@
 import pytest
 from attrs import frozen
 
-from i7000 import DecodeError, Fault, Model, Profile, dcon
+from i7000 import DecodeError, EncodeError, Fault, Model, Profile, dcon
 from i7000.dcon import layout
 
 
@@ -54,3 +54,14 @@ def test_an_offset_is_a_sign_and_four_digits(digits: str, fault: Fault, offset: 
 
     assert (fault, len("$019") + offset) == (in_command.value.fault, in_command.value.offset)
     assert (fault, len("!01") + offset) == (in_response.value.fault, in_response.value.offset)
+
+
+def test_a_calibrated_channel_has_one_digit_in_every_mode() -> None:
+    profile = Profile(Model.M_7017Z, single_ended=True)
+
+    assert dcon.encode(dcon.CalibrateChannelZero(0x01, 5), profile, force=True) == b"$010C5\r"
+
+
+def test_a_calibrated_channel_of_two_digits_is_refused() -> None:
+    with pytest.raises(EncodeError, match=r"channel cannot be 16: 0\.\.F"):
+        dcon.CalibrateCurrentChannelSpan(0x01, 16)

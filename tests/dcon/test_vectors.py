@@ -4,9 +4,10 @@ from typing import Any
 
 import pytest
 
-from i7000 import DecodeError, EncodeError, Noise, dcon
+from i7000 import DataFormat, DecodeError, EncodeError, Noise, TypeCode, dcon
 from i7000.dcon.codec import response_candidates
 from i7000.dcon.frame import checksum, seal, split, unseal
+from i7000.readings import decode_field
 from tests.spec.lint import Record
 from tests.vectors import dcon_vectors, message_of, parameters, profile_of
 
@@ -20,7 +21,12 @@ def written(*outcomes: str) -> list[Any]:
     return [case for case in dcon_vectors(*outcomes) if "decode-only" not in case.values[0]["flags"]]
 
 
-@pytest.mark.parametrize("vector", written("response", "refused", "silence"))
+def of_a_command(cases: list[Any]) -> list[Any]:
+    """Of these vectors those in which the command is not what is rejected."""
+    return [case for case in cases if case.values[0]["command"] is not None]
+
+
+@pytest.mark.parametrize("vector", of_a_command(written("response", "refused", "silence", "reject")))
 def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
@@ -31,7 +37,7 @@ def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
     assert wire(vector, "command") == dcon.encode(command, profile, force="host-refuses" in vector["flags"])
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+@pytest.mark.parametrize("vector", of_a_command(dcon_vectors("response", "refused", "silence", "reject")))
 def test_a_command_is_read_as_the_vector_says(vector: Record) -> None:
     assert message_of(vector["command"]) == dcon.decode_command(wire(vector, "command"), profile_of(vector["profile"]))
 
@@ -88,6 +94,30 @@ def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record
         decode()
 
     assert vector["fault"] == caught.value.fault.value
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/readings/rejected.json"))
+def test_a_field_that_is_no_reading_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
+    data_format = DataFormat[vector["format"].upper()]
+
+    with pytest.raises(DecodeError) as caught:
+        decode_field(vector["text"], TypeCode(int(vector["type_code"], 16)), data_format)
+
+    assert vector["fault"] == caught.value.fault.value
+
+
+@pytest.mark.parametrize("vector", parameters("vectors/readings/channels.json"))
+def test_a_field_is_read_with_the_type_of_its_channel(vector: Record) -> None:
+    command, response = message_of(vector["command"]), message_of(vector["response"])
+    profile = profile_of(vector["profile"])
+
+    single = isinstance(command, dcon.ReadAnalogInput)
+    found = [dcon.reading(response, command.channel, profile)] if single else list(dcon.readings(response, profile))
+
+    assert response == dcon.decode_response(dcon.encode(response, profile), command, profile)
+    assert vector["values"] == [reading.value for reading in found]
+    assert vector["units"] == [reading.unit for reading in found]
+    assert vector["statuses"] == [reading.status.value for reading in found]
 
 
 @pytest.mark.parametrize("vector", parameters("vectors/frames/checksums.json"))

@@ -78,10 +78,10 @@ def places(it: Oracle, area: str, access: str) -> dict[int, tuple[Record, int]]:
 
 
 def wanted(it: Oracle, area: str, access: str, start: int, count: int) -> list[tuple[Record, int]]:
-    """Find what is asked for: 02 if the first or one between is not there, 03 if only the last (3.1, 3.2; E99)."""
+    """Find what is asked for: 02 if the first is not there, 03 if another is not (3.1, 3.2; E94, E99)."""
     there = places(it, area, access)
     found = [there.get(address) for address in range(start, start + count)]
-    refuse(3 if found[0] and not found[-1] else 2, when=None in found)
+    refuse(3 if found[0] else 2, when=None in found)
     if any(place and UNSAID.fullmatch(place[0]["name"]) for place in found):
         raise UnsaidError
     return [place for place in found if place]

@@ -323,8 +323,9 @@ def test_several_rows_are_read_at_once_and_holes_between_them_are_not() -> None:
 
     assert module.ask(modbus.ReadHoldingRegisters(1, 484, 8)).values == (1, 6, 5, 0, 0, 0xFF, 0, 0)
     assert module.ask(modbus.ReadCoils(1, 258, 3)).values == (False, False, False)
-    assert module.ask(modbus.ReadCoils(1, 260, 8)).exception_code == ADDRESS
+    assert module.ask(modbus.ReadCoils(1, 260, 8)).exception_code == VALUE
     assert module.ask(modbus.ReadCoils(1, 260, 2)).exception_code == VALUE
+    assert module.ask(modbus.ReadCoils(1, 266, 2)).exception_code == ADDRESS
 
 
 def test_a_write_is_made_as_a_whole_or_not_at_all() -> None:
@@ -332,7 +333,7 @@ def test_a_write_is_made_as_a_whole_or_not_at_all() -> None:
     before = module.state
 
     assert module.ask(modbus.WriteMultipleRegisters(1, 487, (5, 256))).exception_code == VALUE
-    assert module.ask(modbus.WriteMultipleRegisters(1, 489, (5, 0, 0))).exception_code == ADDRESS
+    assert module.ask(modbus.WriteMultipleRegisters(1, 489, (5, 0, 0))).exception_code == VALUE
     assert module.ask(modbus.WriteMultipleRegisters(1, 487, (5, 6, 7, 8))).exception_code == VALUE
     assert module.state == before
     assert module.ask(modbus.WriteMultipleRegisters(1, 487, (5, 6, 7))) == modbus.MultipleRegistersWritten(1, 487, 3)

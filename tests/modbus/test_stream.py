@@ -17,6 +17,7 @@ def frames_of_vectors(side: str) -> list[bytes]:
         bytes.fromhex(vector[f"{side}_wire"])
         for _, vector in vectors("modbus")
         if vector[side] is not None and len(vector["profile"]["type_codes"]) == 8
+        if vector["outcome"] != "reject" or vector["response_wire"] is not None
     }
     return sorted(found)
 

@@ -70,6 +70,18 @@ def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record
     assert caught.value.wire == wire(vector, "request" if vector["response_wire"] is None else "response")
 
 
+@pytest.mark.parametrize("vector", [case for case in modbus_vectors("reject") if case.values[0]["request"] is not None])
+def test_of_a_rejected_frame_the_request_is_written_or_is_what_is_refused(vector: Record) -> None:
+    request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
+
+    if vector["response_wire"] is None:
+        assert "host-refuses" in vector["flags"]
+        with pytest.raises(EncodeError, match="address cannot be 0"):
+            modbus.encode(request, profile, force=True)
+    else:
+        assert wire(vector, "request") == modbus.encode(request, profile, force=True)
+
+
 @pytest.mark.parametrize("vector", parameters("vectors/frames/crc.json"))
 def test_crcs_are_those_of_the_vectors(vector: Record) -> None:
     body, crc = bytes.fromhex(vector["body"]), bytes.fromhex(vector["crc"])

@@ -56,7 +56,6 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
 
     Wire: ``$AA0Ci`` -> ``!AA``
     Models: M-7017mC-16; the same characters are `CalibrateChannelZero` for the 7019 series.
-    Errors: `EncodeError` for a channel that the module does not have.
     Manual: 2.7, 1.10; E7, E9.
     """
 
@@ -64,11 +63,7 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
     section = "2.7"
     title = "span calibration of single current inputs"
 
-    channel: layout.ChannelI
-
-    def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+    channel: layout.CalibratedChannel
 
 
 @frozen
@@ -86,7 +81,7 @@ class CalibrateChannelZero(Command[Acknowledged]):
     section = "2.8"
     title = "zero calibration of single channels"
 
-    channel: layout.ChannelI
+    channel: layout.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -108,7 +103,7 @@ class CalibrateChannelSpan(Command[Acknowledged]):
     section = "2.9"
     title = "span calibration of single channels"
 
-    channel: layout.ChannelI
+    channel: layout.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""

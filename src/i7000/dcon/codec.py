@@ -194,7 +194,8 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
     r"""Read a frame that a host sent to the module of `profile`.
 
     Special: a channel, type or limit that the module does not have is read all the same: the module answers ``?AA``.
-    Errors: `DecodeError`; with `Fault.UNSUPPORTED` for a command that the module does not have.
+    Errors: `DecodeError`; with `Fault.UNSUPPORTED` for a command that the module does not have. A body that is no
+        command has the fault of the command that it comes nearest to.
     Manual: 2; E7, E8, E10, E27, E93.
 
     >>> decode_command(b"$01A\r", Profile(Model.M_7019R)), decode_command(b"$01A\r", Profile(Model.M_7017))

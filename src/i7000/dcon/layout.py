@@ -102,6 +102,11 @@ def _channel(notation: str) -> Part:
     )  # fmt: skip
 
 
+def _digit(notation: str) -> Part:
+    """A channel number in one hex digit, whatever the connecting mode."""
+    return Part(notation, "0..F", "%X", "{}", lambda value: is_int(value, 0, 0xF), _parse_hex)
+
+
 def _mask(notation: str) -> Part:
     """A bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
     return Part(
@@ -220,6 +225,7 @@ Line = Annotated[LineSettings, _settings("CC", LineSettings)]
 Report = Annotated[ReportSettings, _settings("FF", ReportSettings)]
 ChannelN = Annotated[int, _channel("N")]
 ChannelI = Annotated[int, _channel("i")]
+CalibratedChannel = Annotated[int, _digit("i")]
 Mask = Annotated[int, _mask("VV")]
 DiagnosticMask = Annotated[int, _mask("NN")]
 Offset = Annotated[int, _offset("SNNNN")]
@@ -304,12 +310,11 @@ class Layout:
     def explain(self, body: str, profile: Profile, frame: bytes, section: str) -> DecodeError:
         """Tell why `decode` could not read `body`: its length, or the first thing from the left that does not fit."""
         widths = [_width(piece, profile) for _, piece in self.pieces]
-        shortest = sum(1 if width is None else width for width in widths)
-        if len(body) < shortest or (len(body) > shortest and None not in widths):
-            at = min(len(body), shortest)
-            return DecodeError(
-                Fault.LENGTH, frame, at, allowed=f"{shortest} characters: {self.syntax}", section=section
-            )
+        shortest, longest = sum(1 if width is None else width for width in widths), self.longest(profile)
+        if not shortest <= len(body) <= longest:
+            characters = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
+            allowed = f"{characters} characters: {self.syntax}"
+            return DecodeError(Fault.LENGTH, frame, min(len(body), longest), allowed=allowed, section=section)
         at = 0
         for (name, piece), width in zip(self.pieces, widths, strict=True):
             text = body[at:] if width is None else body[at : at + width]

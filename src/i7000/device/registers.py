@@ -58,19 +58,16 @@ def _spans(
 ) -> tuple[tuple[Register, int], ...]:
     """Find the rows of some addresses, and which of their items is the first that is meant.
 
-    Errors: `RequestError` 02 where the first, or one between, is not there for this access; 03 where only the last is
-        not, there being too many.
+    Errors: `RequestError` 02 where the first is not there for this access; 03 where any other is not.
     Manual: 3.1, 3.2; E94, E99.
     """
     places = _map_of(model, firmware)[area]
-    found = [places.get(address) for address in asked]
-    there = [place is not None and place[0].access is not forbidden for place in found]
-    if not all(there):
-        too_many = there[0] and not there[-1]
-        raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE if too_many else ExceptionCode.ILLEGAL_DATA_ADDRESS)
     spans: dict[str, tuple[Register, int]] = {}
-    for row, at in filter(None, found):
-        spans.setdefault(row.name, (row, at))
+    for address in asked:
+        place = places.get(address)
+        if place is None or place[0].access is forbidden:
+            raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE if spans else ExceptionCode.ILLEGAL_DATA_ADDRESS)
+        spans.setdefault(place[0].name, place)
     return tuple(spans.values())
 
 

@@ -185,6 +185,7 @@ def _part_of(annotation: Any) -> Part:  # noqa: ANN401 - an Annotated type
 _LIMITS: dict[Part, Callable[[Profile], int]] = {
     _part_of(layout.ChannelN): lambda profile: profile.channels - 1,
     _part_of(layout.ChannelI): lambda profile: profile.channels - 1,
+    _part_of(layout.CalibratedChannel): lambda profile: profile.channels - 1,
     _part_of(layout.Mask): lambda profile: (1 << profile.channels) - 1,
     _part_of(layout.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
     _part_of(layout.Seconds): lambda _: LONGEST_TIMEOUT,
