@@ -142,9 +142,8 @@ def split(
         check_type("profile", profile, Profile)
     size = len(buffer)
     if request is None and size and 0 < buffer[0] <= LAST_ADDRESS:
-        starts = _BY_START[side]
-        third = buffer[2] if size > 2 else _MISSING
-        lengths = starts[buffer[1] if size > 1 else _MISSING][third]
+        function = buffer[1] if size > 1 else _MISSING
+        lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
     if request is not None:
