@@ -1,5 +1,6 @@
 """The commands of ``i7000`` and their options."""
 
+import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -8,18 +9,18 @@ from typing import Annotated, Any, Literal
 
 from attrs import frozen
 from cyclopts import App, CycloptsError, Parameter
-from rich.text import Text
 
 from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Profile, dcon, modbus
 from i7000.cli import rtu, rtu_records
 from i7000.cli.dcon import Known
-from i7000.cli.hex_lines import hex_pieces
-from i7000.cli.log import pieces
+from i7000.cli.hex_lines import numbered_hex_pieces
+from i7000.cli.log import numbered_pieces
 from i7000.cli.message import DCON, MODBUS, frame_text, make
 from i7000.cli.message import encode as encode_message
 from i7000.cli.records import Record, command_record, line_records
 from i7000.cli.registers import register_record
-from i7000.cli.text import Printer, command_lines, frame_lines, register_lines, request_lines
+from i7000.cli.source import LONGEST_LINE, Counted, Lines
+from i7000.cli.text import Line, Printer, command_lines, frame_lines, register_lines, request_lines
 from i7000.cli.words import UsageError, type_codes
 from i7000_cli import CLOSED, INTERRUPTED
 
@@ -32,9 +33,6 @@ app = App(
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
-
-_NUMBERS = 20
-"""Lines that are named at the end."""
 
 _Protocol = Annotated[Literal["dcon", "rtu"], Parameter(help="DCON, or Modbus RTU.")]
 
@@ -125,42 +123,53 @@ def decode(
     * if it has more: `candidates`, objects with the keys of a meaning.
     """
     known = module.known(protocol)
-    printer = Printer(json=json)
     count = 0
-    wrong: dict[int, None] = {}
-    with _source(frames, file) as lines:
+    wrong = Counted()
+    with Printer(json=json) as printer, _source(frames, file, printer) as lines:
         records = (
-            rtu_records.line_records(hex_pieces(lines), known)
+            rtu_records.line_records(numbered_hex_pieces(lines), known)
             if protocol == "rtu"
-            else line_records(pieces(lines), known)
+            else line_records(numbered_pieces(lines), known)
         )
         for record in records:
             count += 1
             if record["error"]:
-                wrong[record["line"]] = None
+                wrong.add(record["line"])
             printer.record(record, frame_lines(record, models=known.model is None))
+    long = lines.long if isinstance(lines, Lines) else Counted()
     if not count:
         printer.error("there was nothing to decode")
-    if wrong:
-        numbers = ", ".join(map(str, list(wrong)[:_NUMBERS])) + (", ..." if len(wrong) > _NUMBERS else "")
-        printer.error(f"{len(wrong)} not understood: line {numbers}")
-    return 1 if wrong else 0
+    if long.count:
+        printer.error(
+            f"{long.count} longer than {LONGEST_LINE} bytes and read in pieces, which may cut frames: line {long}"
+        )
+    if wrong.count:
+        printer.error(f"{wrong.count} not understood: line {wrong}")
+    return 1 if wrong.count or long.count else 0
 
 
 @contextmanager
-def _source(frames: tuple[str, ...], file: Path | None) -> Iterator[Iterable[bytes]]:
-    """The lines to decode."""
+def _source(frames: tuple[str, ...], file: Path | None, printer: Printer) -> Iterator[Iterable[tuple[int, bytes]]]:
+    """The numbered lines to decode; what was decoded is printed before waiting for more."""
     if frames and file:
         raise UsageError("frames are given, and a file too: give one of them")
     if frames:
-        yield [frame.encode("utf-8", "surrogatepass") for frame in frames]
+        yield enumerate(map(_argument, frames), 1)
     elif file and file != Path("-"):
-        with file.open("rb") as lines:
-            yield lines
+        with file.open("rb") as log:
+            yield Lines(log, printer.flush)
     elif sys.stdin is None or (file is None and sys.stdin.isatty()):
         raise UsageError("no frames: give some, or --file, or a log on standard input; see i7000 decode --help")
     else:
-        yield sys.stdin.buffer
+        yield Lines(sys.stdin.buffer, printer.flush)  # type: ignore[arg-type] # it is buffered
+
+
+def _argument(text: str) -> bytes:
+    """The bytes that an argument was made of, UTF-8 or not."""
+    try:
+        return os.fsencode(text)
+    except UnicodeEncodeError:
+        return text.encode("utf-8", "surrogatepass")
 
 
 # --- encode, commands -------------------------------------------------------------------------------------------------
@@ -207,8 +216,9 @@ def encode(
         return 1
     text = frame_text(message, frame)
     record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}
-    in_hex = [] if protocol == "rtu" else [Text(frame.hex(" "))]
-    printer.record(record, [Text().append(text, "bold"), *in_hex])
+    in_hex: list[Line] = [] if protocol == "rtu" else [[(frame.hex(" "), "")]]
+    printer.record(record, [[(text, "bold")], *in_hex])
+    printer.flush()
     return 0
 
 
@@ -229,16 +239,16 @@ def commands(
     `models` (and the firmware from which on, or null), `errata`.
     """
     known = Module(model=model, firmware=firmware).known()
-    printer = Printer(json=json)
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
-    for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
-        having = [profile.model.value for profile in profiles if command.section not in profile.refused]
-        if having:
-            printer.record(*_listed(command, having))
+    with Printer(json=json) as printer:
+        for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
+            having = [profile.model.value for profile in profiles if command.section not in profile.refused]
+            if having:
+                printer.record(*_listed(command, having))
     return 0
 
 
-def _listed(command: type[dcon.AnyCommand | modbus.Request[Any]], models: list[str]) -> tuple[Record, Iterable[Text]]:
+def _listed(command: type[dcon.AnyCommand | modbus.Request[Any]], models: list[str]) -> tuple[Record, Iterable[Line]]:
     if issubclass(command, modbus.Request):
         record = rtu_records.request_record(command, models)
         return record, request_lines(record)
@@ -262,10 +272,10 @@ def registers(
     a count), `minimum`, `maximum` (in counts).
     """
     known = Module(model=model, firmware=firmware).known("rtu")
-    printer = Printer(json=json)
-    for row in modbus.RegisterMap(rtu.profiles(known)[0]):
-        record = register_record(row)
-        printer.record(record, register_lines(record))
+    with Printer(json=json) as printer:
+        for row in modbus.RegisterMap(rtu.profiles(known)[0]):
+            record = register_record(row)
+            printer.record(record, register_lines(record))
     return 0
 
 

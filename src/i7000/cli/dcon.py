@@ -1,16 +1,16 @@
-"""What DCON frames can mean, to those who know much, little or nothing about the module.
+"""What is known about modules, and what a DCON frame means to those who know that much.
 
-A `Known` stands for all the profiles that fit what is known; a frame is read with each of them, and a response together
-with its command, so that what one of the two tells is used for the other.
+A `Known` stands for all the profiles that fit what is known; `reader` reads frames with each of them.
 
-Laws: every meaning is one that a codec of `i7000.dcon` found. What is not known and need not be guessed is left open;
-a factory default that is relied on is named in `Meaning.assumed`.
+Laws: what is not known and need not be guessed is left open; a factory default that is relied on is named in
+`Meaning.assumed`.
 """
 
 import re
-from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property, lru_cache
+from collections.abc import Iterable
+from functools import cache, cached_property
 from itertools import product
+from typing import NamedTuple
 
 from attrs import evolve, frozen
 
@@ -18,7 +18,6 @@ from i7000 import (
     DataFormat,
     DecodeError,
     EncodeError,
-    Fault,
     Firmware,
     ModbusDataFormat,
     Model,
@@ -31,12 +30,10 @@ from i7000 import (
 from i7000.message import Message
 from i7000.models import AVAILABILITY
 from i7000.profile import LAST_LEGACY
-from i7000.readings import decode_field
 
-__all__ = ["ChannelReading", "Known", "Meaning", "errata", "gates", "is_command", "meanings", "scope"]
+__all__ = ["ChannelReading", "Fit", "Known", "Meaning", "errata", "gates", "is_command", "scope"]
 
 _COMMAND_LEADS = b"%#$~@"
-_RESPONSE_LEADS = b"!>?"
 
 
 @frozen
@@ -105,8 +102,7 @@ def _either(known: bool | None) -> tuple[bool, ...]:  # noqa: FBT001 - it is the
     return (False, True) if known is None else (known,)
 
 
-@frozen
-class ChannelReading:
+class ChannelReading(NamedTuple):
     """One field of a report, and what is known of it."""
 
     channel: int | None
@@ -118,7 +114,30 @@ class ChannelReading:
     unit: Unit | None = None
 
 
-@frozen
+@frozen(eq=False)
+class Fit:
+    """The profiles that a meaning fits, in the order in which they are tried."""
+
+    profiles: tuple[Profile, ...]
+
+    @cached_property
+    def models(self) -> tuple[Model, ...]:
+        """Their models."""
+        return tuple(dict.fromkeys(profile.model for profile in self.profiles))
+
+    @cached_property
+    def checksum(self) -> bool | None:
+        """Whether they have a checksum; None: some do."""
+        first, *others = {profile.checksum for profile in self.profiles}
+        return None if others else first
+
+    @cached_property
+    def data_formats(self) -> tuple[DataFormat, ...]:
+        """Their data formats."""
+        return tuple(sorted({profile.data_format for profile in self.profiles}))
+
+
+@frozen(eq=False)
 class Meaning:
     """One thing that a frame can mean."""
 
@@ -126,37 +145,26 @@ class Meaning:
     command: dcon.AnyCommand | None
     """The one that it answers."""
     readings: tuple[ChannelReading, ...]
-    profiles: tuple[Profile, ...]
-    """Those it was read with."""
+    fit: Fit
+    """The profiles it was read with."""
     assumed: tuple[str, ...]
     """What has its factory default because it was not told: ``type``, ``format``."""
     misfit: DecodeError | None = None
     """Why the first reading without a value cannot be one of its type."""
 
     @property
-    def models(self) -> tuple[Model, ...]:
-        """The models it fits."""
-        return tuple(dict.fromkeys(profile.model for profile in self.profiles))
-
-    @property
-    def checksum(self) -> bool | None:
-        """Whether the frame ends in a checksum; None: it fits both."""
-        first, *others = {profile.checksum for profile in self.profiles}
-        return None if others else first
-
-    @property
     def data_formats(self) -> tuple[DataFormat, ...]:
         """The formats its readings fit; none if it has none, or if they are always in hex."""
         if not self.readings or isinstance(self.message, dcon.AnalogInputsHex):
             return ()
-        return tuple(sorted({profile.data_format for profile in self.profiles}))
+        return self.fit.data_formats
 
     @property
     def pause(self) -> float:
         """The seconds to leave the module alone after it."""
         if not isinstance(self.message, dcon.Command | dcon.Broadcast):
             return 0.0
-        return max(dcon.pause_after(self.message, profile) for profile in self.profiles)
+        return max(dcon.pause_after(self.message, profile) for profile in self.fit.profiles)
 
 
 def is_command(frame: bytes) -> bool:
@@ -164,13 +172,18 @@ def is_command(frame: bytes) -> bool:
     return frame[0] in _COMMAND_LEADS
 
 
-def errata(message: Message | type[Message]) -> tuple[str, ...]:
-    """List the errata that the docstring of a message names.
+def errata(kind: type[Message]) -> tuple[str, ...]:
+    """List the errata that the docstring of a message class names.
 
     >>> errata(dcon.SetConnectingMode)
     ('E03',)
     """
-    manual = (message.__doc__ or "").partition("Manual:")[2]
+    return _errata(kind.__doc__ or "")
+
+
+@cache
+def _errata(docstring: str) -> tuple[str, ...]:
+    manual = docstring.partition("Manual:")[2]
     return tuple(f"E{int(number):02d}" for number in re.findall(r"\bE(\d+)\b", manual))
 
 
@@ -194,135 +207,3 @@ def scope(models: Iterable[Model], section: str) -> str:
     few = min(models, others, key=len)
     names = ", ".join(model.value for model in Model if model in few)
     return f"all but {names}" if few is others else names
-
-
-# --- meanings ---------------------------------------------------------------------------------------------------------
-
-_Found = tuple[dcon.Message, dcon.AnyCommand | None]
-
-
-@lru_cache(maxsize=1024)  # who polls says the same again and again
-def meanings(frame: bytes, asked: bytes | None, known: Known) -> tuple[Meaning, ...]:
-    r"""Tell what a frame can mean, as the response to `asked` if that is given.
-
-    Special: factory defaults are tried first. A meaning with numbers that no module of their types writes is given,
-        as a misfit, only if no other type or data format fits.
-    Errors: `DecodeError` if it means nothing.
-
-    >>> [type(meaning.message).__name__ for meaning in meanings(b"$01A\r", None, Known())]
-    ['ReadAnalogInputsHex', 'ReadCjcUpdate']
-    """
-
-    def read(profile: Profile) -> Iterable[_Found]:
-        if is_command(frame):
-            return [(dcon.decode_command(frame, profile), None)]
-        if asked is None:
-            return _responses(frame, profile)
-        try:
-            command = dcon.decode_command(asked, profile)
-        except DecodeError:
-            return []  # what the command was read with is elsewhere
-        if isinstance(command, dcon.Broadcast):
-            return _responses(frame, profile)
-        return [(dcon.decode_response(frame, command, profile), command)]
-
-    return _search(read, known)
-
-
-def _search(read: Callable[[Profile], Iterable[_Found]], known: Known) -> tuple[Meaning, ...]:
-    faults: list[DecodeError] = []
-    misfits: _Meanings = {}
-    for profiles in ((known.default,) if known.default else (), known.all):
-        found: _Meanings = {}
-        for profile in profiles:
-            try:
-                pairs = list(read(profile))
-            except DecodeError as fault:
-                faults.append(fault)
-                continue
-            for message, command in pairs:
-                readings, misfit = _readings(message, command, profile)
-                which = misfits if misfit else found
-                which.setdefault((message, command, readings), ([], misfit))[0].append(profile)
-        if found:
-            return _sorted(found, known)
-    if misfits:
-        return _sorted(misfits, known)
-    raise faults[0]
-
-
-_Meanings = dict[
-    tuple[dcon.Message, dcon.AnyCommand | None, tuple[ChannelReading, ...]], tuple[list[Profile], DecodeError | None]
-]
-
-
-def _sorted(found: _Meanings, known: Known) -> tuple[Meaning, ...]:
-    unknown = [("type", known.types), ("format", known.data_format)]
-    result = []
-    for (message, command, readings), (profiles, misfit) in found.items():
-        by_default = readings and profiles == [known.default]
-        assumed = tuple(name for name, value in unknown if value is None) if by_default else ()
-        result.append(Meaning(message, command, readings, tuple(profiles), assumed, misfit))
-    return tuple(sorted(result, key=_section))
-
-
-def _section(meaning: Meaning) -> tuple[int, ...]:
-    command = meaning.command or meaning.message
-    return tuple(map(int, command.section.split(".")))
-
-
-def _responses(frame: bytes, profile: Profile) -> Iterator[_Found]:
-    """Read a response to whatever the module can be asked."""
-    body = dcon.unseal(frame, checksum=profile.checksum, leads=_RESPONSE_LEADS).decode("ascii")
-    kinds = (
-        command.response
-        for command in dcon.COMMANDS
-        if issubclass(command, dcon.Command) and command.section not in profile.refused
-    )
-    read = False
-    responses: dict[type[dcon.Response], None] = dict.fromkeys((dcon.Refused, *kinds))
-    for kind in responses:
-        try:
-            yield kind.layout.decode(body, profile), None
-        except (KeyError, DecodeError):
-            continue
-        read = True
-    if not read:
-        raise DecodeError(Fault.COMMAND, frame, 1, allowed="a response of chapter 2", section="2")
-
-
-def _readings(
-    message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile
-) -> tuple[tuple[ChannelReading, ...], DecodeError | None]:
-    """Read the fields of a report, and say why the first one that does not fit its type does not."""
-    data_format = DataFormat.HEX if isinstance(message, dcon.AnalogInputsHex) else profile.data_format
-    types = dict(enumerate(profile.type_codes))
-    if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
-        fields: list[tuple[int | None, str]] = list(enumerate(message.values))
-    elif isinstance(message, dcon.AnalogInput):
-        fields = [(command.channel if isinstance(command, dcon.ReadAnalogInput) else None, message.value)]
-    else:
-        return (), None
-    uniform = profile.type_codes[0] if len(set(profile.type_codes)) == 1 else None
-    found = []
-    misfit = None
-    for channel, text in fields:
-        type_code = uniform if channel is None else types.get(channel)
-        try:
-            reading = decode_field(
-                text,
-                type_code or TypeCode.V_10,
-                data_format,
-                legacy=profile.legacy_sentinels,
-                lenient=type_code is None,
-            )
-        except DecodeError as error:
-            misfit = misfit or error
-            found.append(ChannelReading(channel, text, None, type_code))
-            continue
-        if type_code is not None:
-            found.append(ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit))
-        else:
-            status = None if reading.status is Status.OK else reading.status
-            found.append(ChannelReading(channel, text, status, None))
-    return tuple(found), misfit

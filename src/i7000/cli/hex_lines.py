@@ -12,14 +12,25 @@ from collections.abc import Iterable, Iterator
 from i7000 import DecodeError, Noise, modbus
 from i7000.cli.log import Line, shown
 
-__all__ = ["hex_pieces"]
+__all__ = ["hex_pieces", "numbered_hex_pieces"]
 
 _Bytes = list[tuple[int, int, int]]
 """Bytes of a line: the value of each, and where in the line it begins and ends."""
 
 _DATE = r"\d{4}([-/.])\d\d\1\d\d"
 _TIME = r"\d\d?:\d\d(?::\d\d(?:[.,]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
-_DATES = re.compile(rf"(?<![\w:.-])(?:{_DATE}(?:[T_ ]{_TIME})?|{_TIME})(?!\w|[:-]\w)")
+_WHEN = rf"(?:{_DATE}(?:[T_ ]{_TIME})?|{_TIME})"
+_DATES = re.compile(rf"(?<![\w:.-]){_WHEN}(?!\w|[:-]\w)")
+_PLAIN = re.compile(
+    rf"""
+    (?: [\[(]? {_WHEN} [\])]? [\s|,;]+ )?
+    (?: [TR][Xx] (?: :[ ]* | [ ]+ ) | (?: [-=]{{0,2}}> | <[-=]{{0,2}} | >> | << ) [ ]* )?
+    (?P<frame> [0-9A-Fa-f]{{2}} (?P<gap> [ :-] | ,[ ]? | ) (?: [0-9A-Fa-f]{{2}} (?P=gap) )* [0-9A-Fa-f]{{2}} )
+    [ ]* \r?\n?
+    """,
+    re.VERBOSE | re.ASCII,
+)
+"""A line of nothing but the time, the direction and one run of bytes, as most are."""
 _WORD = re.compile(r"[0-9A-Za-z\\]+")
 _HEX_WORD = re.compile(r"(?:0[xX])?((?:[0-9A-Fa-f]{2})+)[hH]?")
 _ESCAPED_WORD = re.compile(r"(?:\\x[0-9A-Fa-f]{2})+")
@@ -38,20 +49,35 @@ def hex_pieces(lines: Iterable[bytes]) -> Iterator[Line]:
     >>> [line.frame.hex() for line in hex_pieces([b"12:00:01 TX: 01 46 00 12 60\n"])]
     ['0146001260']
     """
-    for number, line in enumerate(lines, 1):
+    return numbered_hex_pieces(enumerate(lines, 1))
+
+
+def numbered_hex_pieces(lines: Iterable[tuple[int, bytes]]) -> Iterator[Line]:
+    """Find the frames in lines whose numbers are known."""
+    for number, line in lines:
         text = line.decode("utf-8", "surrogateescape")
-        if not text.strip():
-            continue
-        found = _best(text)
-        if found is None:
-            yield Line(number, shown(text), None)
-            continue
-        at = cut = 0
-        for frame in _frames(_wire(found)):
-            at += len(frame)
-            end = found[at][1] if at < len(found) else len(text)
-            yield Line(number, shown(text[cut:end]).rstrip(), frame)
-            cut = end
+        plain = _PLAIN.fullmatch(text)
+        if plain:
+            frame = bytes.fromhex(plain["frame"].replace(plain["gap"] or " ", ""))
+            if _is_frame(frame):
+                yield Line(number, shown(text).rstrip(), frame)
+                continue
+        yield from _pieces(number, text)
+
+
+def _pieces(number: int, text: str) -> Iterator[Line]:
+    if not text.strip():
+        return
+    found = _best(text)
+    if found is None:
+        yield Line(number, shown(text), None)
+        return
+    at = cut = 0
+    for frame in _frames(_wire(found)):
+        at += len(frame)
+        end = found[at][1] if at < len(found) else len(text)
+        yield Line(number, shown(text[cut:end]).rstrip(), frame)
+        cut = end
 
 
 def _best(text: str) -> _Bytes | None:

@@ -8,16 +8,14 @@ Laws: no line raises, and none is lost: the pieces of a line, put together, are 
 
 import re
 from collections.abc import Iterable, Iterator
-
-from attrs import frozen
+from typing import NamedTuple
 
 from i7000 import dcon
 
-__all__ = ["Line", "pieces", "shown"]
+__all__ = ["Line", "numbered_pieces", "pieces", "shown"]
 
 
-@frozen
-class Line:
+class Line(NamedTuple):
     """A line, or the piece of one up to a carriage return."""
 
     number: int
@@ -32,8 +30,11 @@ _PIECE = re.compile(rf"(?s)(.*?)({_ENDS}|\Z)")
 _LINE_ENDS = ("", "\n", "\r\n")
 
 _LEADS = "%#$~@!>?"
-_PREFIX = re.compile(
-    rf"""
+_ONE_END = (*_LINE_ENDS, "\r")
+_MARKS = ("\r", "\n", "\\", "CR", "cr")
+"""What all other ends have in them, and hardly any line."""
+_PREFIXES = re.compile(
+    rf"""(?>
     [\s\ufeff'"]+
     | [-=]+> (?! [-+0-9A-F] )                           # an arrow with a shaft, not a dash before a report
     | >{{2,3}} (?= \s+ [A-Za-z\[(] )
@@ -41,7 +42,7 @@ _PREFIX = re.compile(
     | [-=|:;,<\u00ab\u00bb\u2190-\u21ff]+               # all other arrows, and what separates columns
     | [\[(] [^{_LEADS}\[\]()]{{0,64}} [\])]
     | [\w/] [\w./:,+-]*                                 # dates, times, words and ports
-    """,
+    )*""",
     re.VERBOSE,
 )
 _HEX = re.compile(r"(?:^|[\s:])((?:2[1345]|3[EeFf]|40|7[Ee]) ?(?:[0-9A-Fa-f]{2} ?)*0[Dd])$")
@@ -54,8 +55,20 @@ def pieces(lines: Iterable[bytes]) -> Iterator[Line]:
     >>> [line.frame for line in pieces([b"12:00:01 TX: $012\\r", b"<- >+025.12", b"not open yet"])]
     [b'$012\r', b'>+025.12\r', None]
     """
-    for number, line in enumerate(lines, 1):
-        for piece in _PIECE.finditer(line.decode("utf-8", "surrogateescape")):
+    return numbered_pieces(enumerate(lines, 1))
+
+
+def numbered_pieces(lines: Iterable[tuple[int, bytes]]) -> Iterator[Line]:
+    """Find the frames in lines whose numbers are known."""
+    for number, line in lines:
+        text = line.decode("utf-8", "surrogateescape")
+        body = text.rstrip("\r\n")
+        end = text[len(body) :]
+        if end in _ONE_END and not any(mark in body for mark in _MARKS):  # nearly always
+            if body and not body.isspace():
+                yield Line(number, body if body.isascii() else shown(body), _frame(body, ended=end == "\r"))
+            continue
+        for piece in _PIECE.finditer(text):
             body, end = piece.groups()
             if (body + end).strip():
                 yield Line(number, shown(body + end), _frame(body, ended=end not in _LINE_ENDS))
@@ -72,9 +85,7 @@ def _raw(text: str) -> bytes:
 
 def _frame(text: str, *, ended: bool) -> bytes | None:
     """Find the frame that ends `text`; blanks belong to a report, or to what its carriage return comes after."""
-    at = 0
-    while prefix := _PREFIX.match(text, at):
-        at = prefix.end()
+    at = _PREFIXES.match(text).end()  # type: ignore[union-attr] # it matches no character too
     frame = text[at:]
     if frame[:1] not in _LEADS or not frame:
         return _from_hex(text)

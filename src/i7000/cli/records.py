@@ -6,13 +6,15 @@ Laws: `fields` are those of the class, numbers as numbers, bytes of settings as 
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
-from attrs import asdict, fields
+from attrs import fields
 
 from i7000 import DecodeError, Fault, LineSettings, ReportSettings, dcon
-from i7000.cli.dcon import ChannelReading, Known, Meaning, errata, gates, is_command, meanings
+from i7000.cli.dcon import ChannelReading, Known, Meaning, errata, gates, is_command
 from i7000.cli.log import Line
+from i7000.cli.reader import Reader
 from i7000.cli.words import line_settings_words, mask_words, report_settings_words, type_code_words
 from i7000.message import Message
 
@@ -21,9 +23,20 @@ __all__ = ["Record", "command_record", "empty_record", "explain", "line_records"
 Record = dict[str, Any]
 
 
-def message_fields(kind: type[Message]) -> dict[str, Any]:
+class _Fields(dict[type[Message], dict[str, Any]]):
+    """The fields of message classes, listed when first needed."""
+
+    def __missing__(self, kind: type[Message]) -> dict[str, Any]:
+        listed = {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
+        return self.setdefault(kind, listed)
+
+
+_FIELDS = _Fields()
+
+
+def message_fields(kind: type[Message]) -> Mapping[str, Any]:
     """List the fields of a message class, and the part of the syntax that each fills."""
-    return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
+    return _FIELDS[kind]
 
 
 def empty_record() -> Record:
@@ -37,10 +50,11 @@ def empty_record() -> Record:
 
 def meaning_record(meaning: Meaning) -> Record:
     """A meaning with all that is told about it."""
-    message, command = meaning.message, meaning.command
-    values = {name: getattr(message, name) for name in message_fields(type(message))}
+    message, command, fit = meaning.message, meaning.command, meaning.fit
+    kind = type(message)
+    values = {name: getattr(message, name) for name in message_fields(kind)}
     return empty_record() | {
-        "name": type(message).__name__,
+        "name": kind.__name__,
         "title": message.title,
         "section": command.section if command else message.section,
         "syntax": message.syntax,
@@ -48,10 +62,10 @@ def meaning_record(meaning: Meaning) -> Record:
         "fields": {name: _plain(value) for name, value in values.items()},
         "explained": {name: explain(message, name, value) for name, value in values.items() if name not in _READ},
         "readings": [_reading(reading) for reading in meaning.readings],
-        "errata": list(errata(message)),
+        "errata": list(errata(kind)),
         "pause": meaning.pause,
-        "models": [model.value for model in meaning.models],
-        "checksum": meaning.checksum,
+        "models": [model.value for model in fit.models],
+        "checksum": fit.checksum,
         "data_formats": [data_format.name.lower() for data_format in meaning.data_formats],
         "assumed": list(meaning.assumed),
     }
@@ -83,58 +97,103 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - of any field
 
 
 def _reading(reading: ChannelReading) -> Record:
-    record = asdict(reading)
-    return record | {
-        "status": reading.status and reading.status.value,
-        "type_code": None if reading.type_code is None else reading.type_code.value,
+    channel, text, status, type_code, value, unit = reading
+    return {
+        "channel": channel,
+        "text": text,
+        "status": status and status.value,
+        "type_code": None if type_code is None else type_code.value,
+        "value": value,
+        "unit": unit,
     }
+
+
+_REMEMBERED = 256
+"""Exchanges that are not decoded again when they come again."""
+
+
+class _Told(NamedTuple):
+    """What is said of a frame wherever in a log it stands."""
+
+    record: Record
+    answers: bool = False
+    """Whether it answers the command before it."""
 
 
 def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
     """Tell what the frames of a log mean, responses together with the commands before them."""
-    asked = None
+    reader = Reader(known)
+
+    @lru_cache(maxsize=_REMEMBERED)
+    def told(frame: bytes, asked: bytes | None) -> _Told:
+        return _told(frame, asked, reader)
+
+    asked: Line | None = None
     for line in lines:
-        record = _line_record(line)
-        if line.frame is None:
-            yield record | {"error": "no frame in this line", "fault": Fault.LEADING.value}
+        number, text, frame = line
+        if frame is None:
+            yield line_record(number, text, NO_FRAME | {"fault": Fault.LEADING.value})
             continue
-        command = is_command(line.frame)
-        try:
-            found = meanings(line.frame, asked.frame if asked and not command else None, known)
-        except DecodeError as error:
-            yield record | {
-                "error": str(error),
-                "fault": error.fault.value,
-                "candidates": [meaning_record(meaning) for meaning in _alone(line.frame, known)],
-            }
-            asked = None if command else asked
-            continue
-        if asked and any(meaning.command for meaning in found):
-            record["answers"] = asked.number
-        asked = line if command else None
-        misfit = found[0].misfit  # of all or of none
-        if misfit:
-            record |= {"error": str(misfit), "fault": misfit.fault.value}
-        candidates = [meaning_record(meaning) for meaning in found]
-        yield record | (candidates[0] if len(candidates) == 1 else {"candidates": candidates})
+        command = is_command(frame)
+        record, answers = told(frame, asked.frame if asked and not command else None)
+        yield line_record(
+            number,
+            text,
+            record,
+            direction="command" if command else "response",
+            frame=frame[:-1].decode("ascii", "backslashreplace"),
+            wire=frame.hex(),
+            answers=asked.number if asked and answers else None,
+        )
+        if command:
+            asked = None if record["error"] else line
+        elif answers or not record["error"]:
+            asked = None
 
 
-def _line_record(line: Line) -> Record:
-    frame = line.frame
-    record = {"line": line.number, "direction": None, "text": line.text, "frame": None, "wire": None, "answers": None}
-    if frame:
-        record |= {
-            "direction": "command" if is_command(frame) else "response",
-            "frame": frame[:-1].decode("ascii", "backslashreplace"),
-            "wire": frame.hex(),
-        }
-    return record | empty_record() | {"candidates": [], "error": None, "fault": None}
+def line_record(  # noqa: PLR0913 - the keys of a record
+    number: int,
+    text: str,
+    told: Record,
+    *,
+    direction: str | None = None,
+    frame: str | None = None,
+    wire: str | None = None,
+    answers: int | None = None,
+) -> Record:
+    """A record of a line, and of what is told of the frame in it."""
+    return {
+        "line": number, "direction": direction, "text": text, "frame": frame, "wire": wire, "answers": answers, **told,
+    }  # fmt: skip
 
 
-def _alone(frame: bytes, known: Known) -> tuple[Meaning, ...]:
+def told_record(meaning: Record, **told: Any) -> Record:  # noqa: ANN401 - of any key
+    """What is told of a frame: a meaning, and the keys that only a frame has."""
+    return meaning | {"candidates": [], "error": None, "fault": None} | told
+
+
+NO_FRAME: Record = told_record(empty_record(), error="no frame in this line")
+
+
+def _told(frame: bytes, asked: bytes | None, reader: Reader) -> _Told:
+    try:
+        found = reader.meanings(frame, asked)
+    except DecodeError as error:
+        candidates = [] if asked is None else [meaning_record(meaning) for meaning in _alone(frame, reader)]
+        record = told_record(empty_record(), candidates=candidates, error=str(error), fault=error.fault.value)
+        return _Told(record)
+    records = [meaning_record(meaning) for meaning in found]
+    record = told_record(records[0]) if len(records) == 1 else told_record(empty_record(), candidates=records)
+    misfit = found[0].misfit  # of all or of none
+    if misfit:
+        record |= {"error": str(misfit), "fault": misfit.fault.value}
+    return _Told(record, any(meaning.command for meaning in found))
+
+
+def _alone(frame: bytes, reader: Reader) -> tuple[Meaning, ...]:
     """What a frame could be that does not answer the command before it."""
     try:
-        return meanings(frame, None, known)
+        return reader.meanings(frame)
     except DecodeError:
         return ()
 

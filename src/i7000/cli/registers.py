@@ -6,9 +6,7 @@ Laws: every item that a message touches is told, by the manual's number, if it h
 from collections.abc import Callable, Iterator
 from enum import Enum
 from functools import lru_cache
-from typing import Any
-
-from attrs import evolve, frozen
+from typing import Any, NamedTuple
 
 from i7000 import DecodeError, LineSettings, Profile, Reading, TypeCode, modbus
 from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
@@ -31,8 +29,7 @@ _LONG = (Kind.UINT32, Kind.RECORD)
 """Kinds of more than one word."""
 
 
-@frozen
-class Cell:
+class Cell(NamedTuple):
     """One thing that a message touches: an item, or the two of a 32-bit number."""
 
     number: str
@@ -49,6 +46,22 @@ class Cell:
     type_code: TypeCode | None = None
 
 
+class _Place(NamedTuple):
+    """One thing that a request touches, whatever is sent of it."""
+
+    at: int
+    """Its first item, of those that are touched."""
+    used: int
+    """How many of them."""
+    row: Register
+    """Where it is; a row without a name where the map has none."""
+    channel: int | None
+    empty: Cell
+    """What is told if nothing is sent."""
+    part: str
+    """Which word of a longer number it is, if that is all there is."""
+
+
 def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile: Profile | None) -> Iterator[Cell]:
     """Tell the registers that a message touches, by name if the profile is known.
 
@@ -60,20 +73,11 @@ def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile:
     if area is None or not starts:
         return
     values = _values(message)
-    count = len(values) or getattr(message, "count", 1)
-    known = _map(profile) if profile else None
-    at, end = starts[0], starts[0] + count
-    while at < end:
-        row = _row_at(known, area, at)
-        used = _used(row, at, end)
-        sent = values[at - starts[0] :][:used]
-        yield from _told(known, row or Register("", area, at), at, sent, whole=used > 1)
-        at += used
-
-
-@lru_cache(maxsize=8)
-def _map(profile: Profile) -> RegisterMap:
-    return RegisterMap(profile)
+    for it in _places(profile, area, starts[0], len(values) or getattr(message, "count", 1)):
+        if values:
+            yield from _told(profile, it, values[it.at : it.at + it.used])
+        else:
+            yield it.empty
 
 
 def _values(message: modbus.Message) -> tuple[int, ...]:
@@ -83,44 +87,61 @@ def _values(message: modbus.Message) -> tuple[int, ...]:
     return getattr(message, "values", ())
 
 
-def _row_at(known: RegisterMap | None, area: Area, at: int) -> Register | None:
-    rows = (row for row in known or () if row.area is area and row.address <= at < row.address + row.count)
-    return next(rows, None)
+@lru_cache(maxsize=8)
+def _map(profile: Profile) -> RegisterMap:
+    return RegisterMap(profile)
 
 
-def _used(row: Register | None, at: int, end: int) -> int:
-    """How many items are one thing: all of a row that is more than a word, if all are there."""
-    return row.count if row and row.kind in _LONG and at == row.address and at + row.count <= end else 1
+@lru_cache(maxsize=32)
+def _places(profile: Profile | None, area: Area, start: int, count: int) -> tuple[_Place, ...]:
+    """List the things that `count` items from `start` on are."""
+    rows = [] if profile is None else [row for row in _map(profile) if row.area is area]
+    found = []
+    at = 0
+    while at < count:
+        row = next((row for row in rows if row.address <= start + at < row.address + row.count), None)
+        place = _place(row or Register("", area, start + at), start, at, count, mapped=profile is not None)
+        found.append(place)
+        at += place.used
+    return tuple(found)
 
 
-def _told(known: RegisterMap | None, row: Register, at: int, sent: tuple[int, ...], *, whole: bool) -> Iterator[Cell]:
-    channel = at - row.address if row.count > 1 and row.kind not in _LONG else None
-    number = evolve(row, address=at).number
-    empty = Cell(number, row.name or None, channel, None, row.unit, None if row.name or not known else "not in the map")
-    if not sent:
-        yield empty
+def _place(row: Register, start: int, at: int, count: int, *, mapped: bool) -> _Place:
+    offset = start + at - row.address
+    used = row.count if row.kind in _LONG and not offset and at + row.count <= count else 1
+    channel = offset if row.count > 1 and row.kind not in _LONG else None
+    words = None if row.name or not mapped else "not in the map"
+    number = Register("", row.area, start + at).number
+    empty = Cell(number, row.name or None, channel, None, row.unit, words)
+    part = f"word {offset + 1} of {row.count}" if row.kind in _LONG and used == 1 else ""
+    return _Place(at, used, row, channel, empty, part)
+
+
+def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
+    row, channel, empty = place.row, place.channel, place.empty
+    number, name = empty.number, empty.name
+    raw = _raw(row, sent[0])
+    if profile is None or not name or place.part:
+        remark = place.part or empty.text
+        yield Cell(number, name, channel, sent[0], None, f"{raw}, {remark}" if remark else raw)
         return
-    raw = evolve(empty, value=sent[0], unit=None, text=_raw(row, sent[0]))
-    if not known or not row.name:
-        yield evolve(raw, text=f"{raw.text}, {empty.text}" if empty.text else raw.text)
-        return
-    if row.kind in _LONG and not whole:
-        yield evolve(raw, text=f"{raw.text}, word {at - row.address + 1} of {row.count}")
-        return
-    channels = None if channel is None else range(channel, channel + 1)
     try:
-        value = known.decode(row.name, sent, channels=channels)
+        if row.kind is Kind.READING:
+            (reading,) = modbus.readings(sent, profile, channel=channel or 0)
+            type_code = profile.type_codes[channel or 0]
+            yield Cell(number, name, channel, reading.value, reading.unit, raw, reading, type_code)
+            return
+        channels = None if channel is None else range(channel, channel + 1)
+        value = _map(profile).decode(row.name, sent, channels=channels)
     except DecodeError:
-        yield evolve(raw, text=raw.text if row.kind is Kind.READING else f"{raw.text}, not defined")
+        text = raw if row.kind is Kind.READING else f"{raw}, not defined"
+        yield Cell(number, name, channel, sent[0], None, text)
         return
     value = value if channel is None else value[0]
     if row.kind is Kind.RECORD:
         yield from _log(empty, value)
-    elif isinstance(value, Reading):
-        type_code = known.profile.type_codes[channel or 0]
-        yield evolve(raw, value=value.value, unit=value.unit, reading=value, type_code=type_code)
     else:
-        yield evolve(empty, value=_plain(value), text=_words(row, value))
+        yield Cell(number, name, channel, _plain(value), row.unit, _words(row, value))
 
 
 def _raw(row: Register, item: int) -> str:
@@ -132,7 +153,7 @@ def _log(empty: Cell, records: tuple[modbus.LogRecord, ...]) -> Iterator[Cell]:
     for index, record in enumerate(records):
         texts = (f"{it.value:.7g}" if it.value is not None else it.status.value for it in record.readings)
         text = f"record {index}, {record.time} s: {' '.join(texts)} {record.readings[0].unit}"
-        yield evolve(empty, value=record.time, text=text)
+        yield empty._replace(value=record.time, text=text)
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - of any register

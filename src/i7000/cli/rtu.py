@@ -6,6 +6,8 @@ Laws: every meaning is one that a codec of `i7000.modbus` found, with each profi
 """
 
 from collections.abc import Callable
+from functools import lru_cache
+from operator import attrgetter
 from typing import Any
 
 from attrs import evolve, frozen
@@ -43,7 +45,7 @@ def profiles(known: Known) -> tuple[Profile, ...]:
     return tuple(found)
 
 
-@frozen
+@frozen(eq=False)
 class Meaning:
     """What a frame means."""
 
@@ -84,11 +86,20 @@ class _Asked:
     echoed: bool = False
 
 
+_Tried = tuple[Meaning | None, DecodeError | None]
+"""What came of reading a frame: a meaning, or what is wrong."""
+_REMEMBERED = 256
+"""Frames that are not decoded again when they come again: who polls sends the same again and again."""
+
+
 class Listener:
     """Both sides of a line, as a log has them."""
 
     def __init__(self, fitting: tuple[Profile, ...]) -> None:
-        self.profiles = fitting
+        remembered = lru_cache(maxsize=_REMEMBERED)
+        self._request = remembered(lambda frame: _tried(lambda: _request(frame, fitting)))
+        self._alone = remembered(lambda frame: _tried(lambda: _alone(frame, fitting)))
+        self._response = remembered(lambda frame, asked: _tried(lambda: _response(frame, asked)))
         self._asked: _Asked | None = None
         self._in_step = False
         """Whether a request is what comes next."""
@@ -104,7 +115,7 @@ class Listener:
         asked = self._asked
         response = fault = None
         if asked and asked.meaning.is_answered:
-            response, fault = _tried(lambda: _response(frame, asked.meaning))
+            response, fault = self._response(frame, asked.meaning)
         if asked and frame == asked.frame and not asked.echoed and (response is None or self._echoes):
             self._asked = evolve(asked, echoed=True)
             self._echoes = True
@@ -115,8 +126,8 @@ class Listener:
             self._echoes = asked.echoed
             self._asked, self._in_step = None, True
             return Heard("response", response, answers=asked.line)
-        request, no_request = _tried(lambda: _request(frame, self.profiles))
-        alone, _ = _tried(lambda: _alone(frame, self.profiles))
+        request, no_request = self._request(frame)
+        alone, _ = self._alone(frame)
         if request:
             note = _doubt(alone, fault, asked, in_step=self._in_step)
             self._asked, self._in_step = _Asked(line, frame, request), not request.is_answered
@@ -138,27 +149,30 @@ def _doubt(alone: Meaning | None, fault: DecodeError | None, asked: _Asked | Non
     return None
 
 
-def _tried(read: Callable[[], Meaning]) -> tuple[Meaning | None, DecodeError | None]:
+def _tried(read: Callable[[], Meaning]) -> _Tried:
     try:
         return read(), None
     except DecodeError as fault:
-        return None, fault
+        return None, fault.with_traceback(None)
+
+
+_FORM = attrgetter("channels", "mask_digits")
+"""What decides how a profile reads a frame."""
 
 
 def _read(read: Callable[[Profile], modbus.Message], fitting: tuple[Profile, ...], request: Any) -> Meaning:  # noqa: ANN401
-    """Read with each profile; those that can read a frame at all read the same."""
-    faults = []
-    found = []
-    for profile in fitting:
+    """Read with each form of profiles; those that can read a frame at all read the same."""
+    faults: dict[object, DecodeError] = {}
+    messages: dict[object, modbus.Message] = {}
+    for form, profile in {_FORM(profile): profile for profile in reversed(fitting)}.items():
         try:
-            message = read(profile)
+            messages[form] = read(profile)
         except DecodeError as fault:
-            faults.append(fault)
-        else:
-            found.append(profile)
-    if not found:
-        raise faults[0]
-    return Meaning(message, request, tuple(found))
+            faults[form] = fault
+    if not messages:
+        raise faults[_FORM(fitting[0])]
+    found = tuple(profile for profile in fitting if _FORM(profile) in messages)
+    return Meaning(messages[_FORM(found[0])], request, found)
 
 
 def _request(frame: bytes, fitting: tuple[Profile, ...]) -> Meaning:

@@ -5,12 +5,13 @@ Laws: `fields` are those of the class, as in the vectors of ``spec``; `explained
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 from i7000 import Fault, LineSettings, modbus
 from i7000.cli.dcon import Known, errata, gates
 from i7000.cli.log import Line
-from i7000.cli.records import Record, empty_record, message_fields
+from i7000.cli.records import NO_FRAME, Record, empty_record, line_record, message_fields, told_record
 from i7000.cli.registers import Cell, cells
 from i7000.cli.rtu import Listener, Meaning, profiles
 from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
@@ -20,49 +21,55 @@ from i7000.models import AVAILABILITY
 __all__ = ["explain", "line_records", "meaning_record", "request_record"]
 
 
+_REMEMBERED = 64
+_SHORT = 64
+"""Bytes of a frame up to which its record is remembered: those of a frame full of coils are large."""
+
+
 def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
     """Tell what the frames of a log mean, responses together with the requests before them."""
     listener = Listener(profiles(known))
-    for line in lines:
-        record = _line_record(line)
-        if line.frame is None:
-            yield record | {"error": "no frame in this line", "fault": Fault.LENGTH.value}
+
+    def told(meaning: Meaning) -> Record:
+        return told_record(meaning_record(meaning, known))
+
+    remembered = lru_cache(maxsize=_REMEMBERED)(told)
+    for number, text, frame in lines:
+        if frame is None:
+            yield line_record(number, text, NO_FRAME | {"fault": Fault.LENGTH.value})
             continue
-        heard = listener.hear(line.number, line.frame)
-        record |= {"direction": heard.direction, "answers": heard.answers}
+        heard = listener.hear(number, frame)
         if heard.error:
             candidates = [meaning_record(meaning, known) for meaning in heard.candidates]
-            error = {"error": str(heard.error), "fault": heard.error.fault.value}
-            yield record | error | {"candidates": candidates}
+            error, fault = str(heard.error), heard.error.fault.value
+            record = told_record(empty_record(), candidates=candidates, error=error, fault=fault)
         if heard.meaning:
-            meaning = meaning_record(heard.meaning, known)
-            notes = (heard.note, meaning["note"])
-            yield record | meaning | {"note": "; ".join(filter(None, notes)) or None}
-
-
-def _line_record(line: Line) -> Record:
-    frame = line.frame
-    return {
-        "line": line.number,
-        "direction": None,
-        "text": line.text,
-        "frame": frame and frame.hex(" ").upper(),
-        "wire": frame and frame.hex(),
-        "answers": None,
-    } | empty_record() | {"candidates": [], "error": None, "fault": None}  # fmt: skip
+            record = (remembered if len(frame) <= _SHORT else told)(heard.meaning)
+            if heard.note:
+                record = record | {"note": "; ".join(filter(None, (heard.note, record["note"])))}
+        yield line_record(
+            number,
+            text,
+            record,
+            direction=heard.direction,
+            frame=frame.hex(" ").upper(),
+            wire=frame.hex(),
+            answers=heard.answers,
+        )
 
 
 def meaning_record(meaning: Meaning, known: Known) -> Record:
     """A meaning with all that is told about it."""
     message, request = meaning.message, meaning.request
+    kind = type(message)
     profile = meaning.profiles[0] if known.model else None
     touched = tuple(cells(message, request, profile))
-    values = {name: getattr(message, name) for name in message_fields(type(message))}
+    values = {name: getattr(message, name) for name in message_fields(kind)}
     section = request.section if request else message.section
     models = dict.fromkeys(it.model for it in meaning.profiles if section not in it.refused)
     readings = [_reading(cell) for cell in touched if cell.reading]
     return empty_record() | {
-        "name": type(message).__name__,
+        "name": kind.__name__,
         "title": message.title,
         "section": section,
         "syntax": message.pdu,
@@ -75,7 +82,7 @@ def meaning_record(meaning: Meaning, known: Known) -> Record:
         },
         "readings": readings,
         "registers": [_register(cell) for cell in touched],
-        "errata": list(errata(message)),
+        "errata": list(errata(kind)),
         "models": [model.value for model in models],
         "data_formats": [meaning.profiles[0].modbus_data_format.name.lower()] if readings else [],
         "assumed": ["type"] if readings and known.types is None and meaning.profiles[0].type_codes else [],

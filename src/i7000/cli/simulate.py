@@ -170,21 +170,19 @@ def run(simulated: Simulation, printer: Printer) -> int:
 @contextmanager
 def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
     """Print so that the simulation goes on, and ends, even if nobody reads what is printed; the value is the output."""
-    files = printer.out.file, printer.err.file
-    out = Outlet(files[0], most=0, counted=False) if view == "live" else Outlet(files[0])
-    err = Outlet(files[1])
-    printer.out.file, printer.err.file = cast(IO[str], out), cast(IO[str], err)
+    out = Outlet(printer.out.file, most=0, counted=False) if view == "live" else Outlet(printer.out.file)
+    err = Outlet(printer.err.file)
     complaints = logging.StreamHandler(err)
     logging.getLogger("asyncio").addHandler(complaints)
-    try:
-        yield out
-    finally:
-        missed = out.close()
-        if missed and view == "lines":
-            printer.error(missed_words(missed))
-        logging.getLogger("asyncio").removeHandler(complaints)
-        err.close()
-        printer.out.file, printer.err.file = files
+    with redirect_stdout(cast(IO[str], out)), redirect_stderr(cast(IO[str], err)):
+        try:
+            yield out
+        finally:
+            missed = out.close()
+            if missed and view == "lines":
+                printer.error(missed_words(missed))
+            logging.getLogger("asyncio").removeHandler(complaints)
+            err.close()
 
 
 async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:

@@ -1,97 +1,203 @@
 """Records on a terminal, or in a file: colours for the one, the same lines without for the other.
 
+A line is made of spans, each a text and its style. Off a terminal they are written as they are: without rich, which
+takes most of the time there, and is not even imported.
+
 Laws: a line is as long as what it says, never wrapped and never cut; what a terminal could take for a control sequence
-is escaped.
+is escaped before rich sees it, which drops some of these characters.
 """
 
 import json
+import os
+import re
+import sys
 from collections.abc import Iterable, Iterator
+from functools import cached_property, lru_cache
 from itertools import groupby
-
-from rich.console import Console
-from rich.segment import Segments
-from rich.text import Text
+from typing import TYPE_CHECKING, Self, TextIO
 
 from i7000 import Model
 from i7000.cli.dcon import scope
 from i7000.cli.records import Record
 from i7000.cli.words import type_code_words
 
-__all__ = ["Printer", "command_lines", "escaped", "frame_lines", "printable", "register_lines", "request_lines"]
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
+__all__ = [
+    "Line",
+    "Printer",
+    "command_lines",
+    "escaped",
+    "frame_lines",
+    "printable",
+    "register_lines",
+    "request_lines",
+]
+
+Line = list[tuple[str, str]]
+"""The spans of a line: texts and their styles; no style is the empty one."""
 
 _INDENT = "     "
+_BUFFERED = 1 << 16
+"""Characters that are kept until they are written; `Printer.flush` writes them at once."""
+_json = json.JSONEncoder(check_circular=False).encode
 
 
 class Printer:
-    """Where output goes: `json` as one object a line, else for people."""
+    """Where output goes: `json` as one object a line, else for people.
+
+    Time: records are kept until there are many, until `flush`, or until the end of a ``with`` block.
+    """
 
     def __init__(self, *, json: bool = False) -> None:
         self.json = json
-        self.out = Console(highlight=False)
-        self.err = Console(highlight=False, stderr=True)
+        self._styled = _is_styled(sys.stdout)
+        self._kept: list[str] = []
+        self._size = 0
 
-    def record(self, record: Record, lines: Iterable[Text]) -> None:
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.flush()
+
+    @cached_property
+    def out(self) -> "Console":
+        """Standard output for those who draw on it."""
+        from rich.console import Console  # noqa: PLC0415 - it takes time
+
+        return Console(highlight=False)
+
+    @cached_property
+    def err(self) -> "Console":
+        """Standard error for those who draw on it."""
+        from rich.console import Console  # noqa: PLC0415 - it takes time
+
+        return Console(highlight=False, stderr=True)
+
+    def record(self, record: Record, lines: Iterable[Line]) -> None:
         """Print a record: as it is, or in lines for people."""
         if self.json:
-            self.out.out(json.dumps(record), highlight=False)
+            self._write(_json(record))
+        elif self._styled:
+            for line in lines:
+                _print(self.out, _text(line))
         else:
-            self.show(lines)
+            for line in lines:
+                self._write(_plain(line, sys.stdout))
 
-    def show(self, lines: Iterable[Text]) -> None:
-        """Print lines for people."""
+    def show(self, lines: Iterable["Text"]) -> None:
+        """Print texts for people, at once."""
+        self.flush()
         for line in lines:
-            _print(self.out, line)
+            _print(self.out, printable(line, self.out.encoding))
 
     def error(self, message: object) -> None:
         """Say what is wrong."""
-        _print(self.err, _styled(f"i7000: {message}", "red"))
+        self.flush()
+        line = [(f"i7000: {message}", "red")]
+        if _is_styled(sys.stderr):
+            _print(self.err, _text(line))
+        elif sys.stderr:
+            sys.stderr.write(f"{_plain(line, sys.stderr)}\n")
+
+    def flush(self) -> None:
+        """Write what was kept."""
+        kept, self._kept, self._size = self._kept, [], 0
+        if kept and sys.stdout:
+            sys.stdout.write("".join(kept))
+            sys.stdout.flush()
+
+    def _write(self, line: str) -> None:
+        self._kept += (line, "\n")
+        self._size += len(line)
+        if self._size >= _BUFFERED:
+            self.flush()
 
 
-def _print(console: Console, line: Text) -> None:
+def _is_styled(file: TextIO | None) -> bool:
+    """Whether a file is a terminal, or may be one to rich, which looks at more of the environment."""
+    return file is not None and (file.isatty() or any(map(os.environ.get, ("FORCE_COLOR", "TTY_COMPATIBLE"))))
+
+
+def _plain(line: Line, file: TextIO | None) -> str:
+    """A line without styles, in characters that can be written to a file."""
+    text = escaped("".join([text for text, _ in line]))
+    if text.isascii() or file is None:
+        return text
+    encoding = file.encoding or "utf-8"
+    return text.encode(encoding, "backslashreplace").decode(encoding)
+
+
+def _text(line: Line) -> "Text":
+    from rich.text import Text  # noqa: PLC0415 - it takes time
+
+    return Text.assemble(*[(escaped(text), style) for text, style in line], end="")
+
+
+def _print(console: "Console", line: "Text") -> None:
     """Print a line as segments: text would be wrapped, or lose its last blanks."""
-    segments = printable(line, console.encoding).render(console, end="\n")
-    console.print(Segments(segments), soft_wrap=True, end="")
+    from rich.segment import Segments  # noqa: PLC0415 - it takes time
+
+    console.print(Segments(printable(line, console.encoding).render(console, end="\n")), soft_wrap=True, end="")
+
+
+# --- characters -------------------------------------------------------------------------------------------------------
+
+
+class _Escapes(dict[int, str]):
+    """What is written for a character: itself, or an escape for what is not seen, or could move a cursor."""
+
+    def __missing__(self, code: int) -> str:
+        character = chr(code)
+        if character.isprintable() and not _UNSEEN.fullmatch(character):
+            return character
+        escape = character.encode("unicode_escape").decode()
+        return self.setdefault(code, escape) if code <= 0xFF else escape
+
+
+_UNSEEN = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]")
+"""Fillers, joiners and selectors that `str.isprintable` takes for characters one can see."""
+_ESCAPES = _Escapes()
 
 
 def escaped(text: str) -> str:
-    r"""Escape what is no character of a line, and could move a terminal's cursor.
+    r"""Escape what is no character of a line, and could move a terminal's cursor or is not seen on it.
 
     >>> escaped("\x1b[2J")
     '\\x1b[2J'
     """
-    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in text)
+    return text if text.isascii() and text.isprintable() else text.translate(_ESCAPES)
 
 
-def printable(text: Text, encoding: str) -> Text:
+def printable(text: "Text", encoding: str) -> "Text":
     """Escape what is no character of a line, or none that can be written."""
     plain = text.plain
     if plain.isascii() and plain.isprintable():
         return text
-    return Text(escaped(plain).encode(encoding, "backslashreplace").decode(encoding))
-
-
-def _styled(words: str, style: str) -> Text:
-    return Text().append(words, style)
+    return type(text)(escaped(plain).encode(encoding, "backslashreplace").decode(encoding))
 
 
 # --- decode -----------------------------------------------------------------------------------------------------------
 
 
-def frame_lines(record: Record, *, models: bool) -> Iterator[Text]:
+def frame_lines(record: Record, *, models: bool) -> Iterator[Line]:
     """What a frame means; `models` tells whether to say which models it fits."""
-    yield Text(f"{record['line']:<4} ").append(record["text"], "bold")
+    yield [(f"{record['line']:<4} ", ""), (record["text"], "bold")]
     if record["error"]:
-        yield _styled(f"{_INDENT}not understood: {record['error']}", "red")
+        yield [(f"{_INDENT}not understood: {record['error']}", "red")]
     if record["name"]:
         yield from _meaning(record, models=models, answers=record["answers"])
     for count, candidate in enumerate(record["candidates"]):
-        yield Text(_INDENT + ("or" if count else "could be"))
+        yield [(_INDENT + ("or" if count else "could be"), "")]
         yield from _meaning(candidate, models=models, answers=record["answers"])
 
 
-def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[Text]:
+def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[Line]:
     source = f"manual {record['section']}" + (f"; {' '.join(record['errata'])}" if record["errata"] else "")
-    yield Text(_INDENT).append(record["name"], "cyan").append(f": {record['title']} ({source})")
+    yield [(_INDENT, ""), (record["name"], "cyan"), (f": {record['title']} ({source})", "")]
     if record["command"]:
         yield _row("answers", f"{record['command']}, line {answers}")
     for name, words in record["explained"].items():
@@ -107,21 +213,26 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[T
     if record["note"]:
         yield _row("note", record["note"])
     if models:
-        yield _row("models", scope(map(Model, record["models"]), record["section"]))
+        yield _row("models", _scope(tuple(record["models"]), record["section"]))
 
 
-def _row(name: str, words: str) -> Text:
-    return _styled(f"{_INDENT}  {name:<15} ", "dim").append(words)
+@lru_cache(maxsize=256)
+def _scope(models: tuple[str, ...], section: str) -> str:
+    return scope(map(Model, models), section)
 
 
-def _readings(record: Record) -> Iterator[Text]:
+def _row(name: str, words: str) -> Line:
+    return [(f"{_INDENT}  {name:<15} ", "dim"), (words, "")]
+
+
+def _readings(record: Record) -> Iterator[Line]:
     for reading in record["readings"]:
         channel = "channel" if reading["channel"] is None else f"channel {reading['channel']}"
         line = _row(channel, f"{reading['text']:7}")
         if reading["status"] == "ok":
-            line.append(f"  {reading['value']:.7g} {reading['unit']}", "green")
+            line.append((f"  {reading['value']:.7g} {reading['unit']}", "green"))
         elif reading["status"]:
-            line.append(f"  {reading['status'].upper()}", "yellow")
+            line.append((f"  {reading['status'].upper()}", "yellow"))
         yield line
     for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
         yield _row("type", type_code_words(code))
@@ -131,15 +242,15 @@ def _readings(record: Record) -> Iterator[Text]:
         yield _row("assumed", f"the factory default of {' and '.join(record['assumed'])}")
 
 
-def _registers(registers: list[Record]) -> Iterator[Text]:
+def _registers(registers: list[Record]) -> Iterator[Line]:
     """Registers with their values; those without, or with readings that were told, in ranges."""
     for (name, text, _), group in groupby(registers, _in_range):
         first, *others = group
         number = first["number"] + (f"..{others[-1]['number']}" if others else "")
         channel = "" if others or first["channel"] is None else f" {first['channel']}"
-        line = _row(number, "  ".join(filter(None, ((name or "") + channel, text))))
-        line.rstrip()
-        yield line
+        words = "  ".join(filter(None, ((name or "") + channel, text)))
+        label, style = _row(number, "")[0]
+        yield [(label, style), (words, "")] if words else [(label.rstrip(), style)]
 
 
 def _in_range(register: Record) -> tuple[str | None, str | None, int | None]:
@@ -152,38 +263,36 @@ def _in_range(register: Record) -> tuple[str | None, str | None, int | None]:
 # --- commands ---------------------------------------------------------------------------------------------------------
 
 
-def command_lines(record: Record) -> Iterator[Text]:
+def command_lines(record: Record) -> Iterator[Line]:
     """One command, in a line."""
-    since = {Model(model): firmware for model, firmware in record["models"].items()}
-    yield (
-        Text(f"{record['section']:<5} ")
-        .append(f"{record['syntax']:<12} ", "bold")
-        .append(f"{record['response_syntax'] or 'no response':<12} ")
-        .append(f"{record['name']:<28} ", "cyan")
-        .append(f"{record['title']:<43} ")
-        .append(scope(since, record["section"]), "dim")
-    )
+    yield [
+        (f"{record['section']:<5} ", ""),
+        (f"{record['syntax']:<12} ", "bold"),
+        (f"{record['response_syntax'] or 'no response':<12} ", ""),
+        (f"{record['name']:<28} ", "cyan"),
+        (f"{record['title']:<43} ", ""),
+        (_scope(tuple(record["models"]), record["section"]), "dim"),
+    ]
 
 
-def request_lines(record: Record) -> Iterator[Text]:
+def request_lines(record: Record) -> Iterator[Line]:
     """One request by Modbus, in a line."""
-    since = {Model(model): firmware for model, firmware in record["models"].items()}
-    yield (
-        Text(f"{record['section']:<7} ")
-        .append(f"{record['syntax']:<47} ", "bold")
-        .append(f"{record['name']:<26} ", "cyan")
-        .append(f"{record['title']:<22} ")
-        .append(scope(since, record["section"]), "dim")
-    )
+    yield [
+        (f"{record['section']:<7} ", ""),
+        (f"{record['syntax']:<47} ", "bold"),
+        (f"{record['name']:<26} ", "cyan"),
+        (f"{record['title']:<22} ", ""),
+        (_scope(tuple(record["models"]), record["section"]), "dim"),
+    ]
 
 
-def register_lines(record: Record) -> Iterator[Text]:
+def register_lines(record: Record) -> Iterator[Line]:
     """One row of an address map, in a line."""
     numbers = record["number"] + (f"..{record['last_number']}" if record["count"] > 1 else "")
     unit = f"{record['scale']:g} {record['unit']}" if record["scale"] else ""
     limits = "" if record["minimum"] is None else f"{record['minimum']}..{record['maximum']}"
-    yield (
-        Text(f"{numbers:<12} ", "bold")
-        .append(f"{record['name']:<28} ", "cyan")
-        .append(f"{record['access']:<3} {record['kind']:<7} {unit:<9} {limits}".rstrip())
-    )
+    yield [
+        (f"{numbers:<12} ", "bold"),
+        (f"{record['name']:<28} ", "cyan"),
+        (f"{record['access']:<3} {record['kind']:<7} {unit:<9} {limits}".rstrip(), ""),
+    ]

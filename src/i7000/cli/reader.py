@@ -1,0 +1,260 @@
+"""DCON frames -> what they can mean, to those who know much, little or nothing about the module.
+
+A frame is read with every profile that fits what is known, and a response together with its command, so that what one
+of the two proves is used for the other. Profiles that read frames alike are tried once: see `_COMMAND_FORM` and
+`_RESPONSE_FORM`.
+
+Laws: every meaning is one that a codec of `i7000.dcon` found.
+"""
+
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from functools import cached_property, lru_cache, partial
+from operator import attrgetter, itemgetter
+from typing import Any, NamedTuple
+
+from i7000 import DataFormat, DecodeError, Fault, Profile, Status, TypeCode, dcon
+from i7000.cli.dcon import ChannelReading, Fit, Known, Meaning, is_command
+from i7000.readings import decode_field
+
+__all__ = ["Reader"]
+
+_RESPONSE_LEADS = b"!>?"
+_REMEMBERED = 256
+"""Commands, and sets of profiles, of which the work is not done again: who polls sends the same again and again."""
+
+_COMMAND_FORM = attrgetter("checksum", "channel_digits", "mask_digits", "refused")
+"""What decides how a profile reads a command."""
+_RESPONSE_FORM = attrgetter(
+    "checksum", "channels", "channel_digits", "mask_digits", "data_format", "legacy_sentinels", "type_codes"
+)
+"""What decides how a profile reads a response to a known command, and the readings in it."""
+
+
+class _Group(NamedTuple):
+    """Profiles that read alike."""
+
+    profile: Profile
+    """The first of them."""
+    places: tuple[int, ...]
+    """Where they stand among those of the `Reader`."""
+
+
+class _Found(NamedTuple):
+    """A message, the command that it answers, and the profiles that read it."""
+
+    message: dcon.Message
+    command: dcon.AnyCommand | None
+    group: _Group
+    kind: int = 0
+    """Where its class stands among those that were tried."""
+
+
+_Attempt = Callable[[bytes], Iterable[_Found]]
+"""Read a frame as a group of profiles does, or raise `DecodeError`."""
+_Stages = tuple[tuple[_Attempt, ...], ...]
+"""Attempts with the factory defaults, then with all that is possible; the second stage counts if the first fails."""
+_Places = list[tuple[int, Profile]]
+_Meanings = dict[
+    tuple[dcon.Message, dcon.AnyCommand | None, tuple[ChannelReading, ...]], tuple[list[_Found], DecodeError | None]
+]
+"""What was found, and why the first of its readings that has no value cannot be one of its type."""
+
+
+class Reader:
+    """Reads frames of modules of which so much is known; it remembers what it needs for the next frame."""
+
+    def __init__(self, known: Known) -> None:
+        self._known = known
+        defaults = () if known.default is None else (known.default,)
+        self._profiles = (*defaults, *known.all)
+        numbered = list(enumerate(self._profiles))
+        self._places = tuple(places for places in (numbered[: len(defaults)], numbered[len(defaults) :]) if places)
+        self._answers = lru_cache(maxsize=_REMEMBERED)(self._answer_stages)
+        self._fit = lru_cache(maxsize=_REMEMBERED)(self._fit_of)
+
+    def meanings(self, frame: bytes, asked: bytes | None = None) -> tuple[Meaning, ...]:
+        r"""Return what a frame can mean, as the response to `asked` if that is given.
+
+        Special: factory defaults are tried first. A meaning with numbers that no module of their types writes is
+            given, as a misfit, only if no other type or data format fits.
+        Errors: `DecodeError` if it means nothing.
+
+        >>> [type(meaning.message).__name__ for meaning in Reader(Known()).meanings(b"$01A\r")]
+        ['ReadAnalogInputsHex', 'ReadCjcUpdate']
+        """
+        stages = self._commands if is_command(frame) else self._alone if asked is None else self._answers(asked)
+        misfits: _Meanings = {}
+        first_fault = None
+        for attempts in stages:
+            found: _Meanings = {}
+            for attempt in attempts:
+                try:
+                    for one in attempt(frame):
+                        readings, misfit = _readings(one.message, one.command, one.group.profile)
+                        which = misfits if misfit else found
+                        which.setdefault((one.message, one.command, readings), ([], misfit))[0].append(one)
+                except DecodeError as fault:
+                    first_fault = first_fault or fault
+            if found:
+                return self._sorted(found)
+        if misfits:
+            return self._sorted(misfits)
+        assert first_fault is not None  # noqa: S101 - what was asked for was read with a profile at least
+        raise first_fault
+
+    def _sorted(self, found: _Meanings) -> tuple[Meaning, ...]:
+        if len(found) > 1:
+            found = dict(sorted(found.items(), key=_order))
+        known = self._known
+        unknown = [("type", known.types), ("format", known.data_format)]
+        result = []
+        for (message, command, readings), (those, misfit) in found.items():
+            fit = self._fit(tuple([one.group.places for one in those]))
+            by_default = readings and fit.profiles == (known.default,)
+            assumed = tuple(name for name, value in unknown if value is None) if by_default else ()
+            result.append(Meaning(message, command, readings, fit, assumed, misfit))
+        return tuple(result)
+
+    def _fit_of(self, groups: tuple[tuple[int, ...], ...]) -> Fit:
+        return Fit(tuple(self._profiles[place] for place in sorted(place for places in groups for place in places)))
+
+    # --- ways to read -------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _command_groups(self) -> tuple[tuple[_Group, ...], ...]:
+        return tuple(_groups(places, _COMMAND_FORM) for places in self._places)
+
+    @cached_property
+    def _commands(self) -> _Stages:
+        return tuple(tuple(partial(_command, group) for group in groups) for groups in self._command_groups)
+
+    @cached_property
+    def _alone(self) -> _Stages:
+        return tuple(_in_turn(_alone_attempts(places)) for places in self._places)
+
+    def _answer_stages(self, asked: bytes) -> _Stages:
+        """Choose how to read the responses to a command: as each profile does that can read the command."""
+        stages = []
+        for groups in self._command_groups:
+            answered: dict[dcon.AnyCommand, _Places] = {}
+            for group in groups:
+                try:
+                    command = dcon.decode_command(asked, group.profile)
+                except DecodeError:
+                    continue  # what the command was read with is elsewhere
+                answered.setdefault(command, []).extend((place, self._profiles[place]) for place in group.places)
+            attempts: list[tuple[int, _Attempt]] = []
+            for command, places in answered.items():
+                places.sort(key=_PLACE)
+                if isinstance(command, dcon.Broadcast):
+                    attempts += _alone_attempts(places)
+                else:
+                    groups_of_it = _groups(places, _RESPONSE_FORM)
+                    attempts += [(group.places[0], partial(_answer, command, group)) for group in groups_of_it]
+            stages.append(_in_turn(attempts))
+        return tuple(stages)
+
+
+_PLACE = itemgetter(0)
+
+
+def _in_turn(attempts: Iterable[tuple[int, _Attempt]]) -> tuple[_Attempt, ...]:
+    return tuple(attempt for _, attempt in sorted(attempts, key=_PLACE))
+
+
+def _groups(places: _Places, form: Callable[[Profile], Hashable]) -> tuple[_Group, ...]:
+    """Put the profiles of one form together."""
+    found: dict[Hashable, _Places] = {}
+    for place, profile in places:
+        found.setdefault(form(profile), []).append((place, profile))
+    return tuple(_Group(group[0][1], tuple(map(_PLACE, group))) for group in found.values())
+
+
+def _order(item: tuple[Any, tuple[list[_Found], DecodeError | None]]) -> tuple[object, ...]:
+    """Sort meanings by section, and then as if each profile were tried by itself."""
+    (message, command, _), (found, _) = item
+    section = tuple(map(int, (command or message).section.split(".")))
+    return section, *min((one.group.places[0], one.kind) for one in found)
+
+
+def _command(group: _Group, frame: bytes) -> Iterator[_Found]:
+    yield _Found(dcon.decode_command(frame, group.profile), None, group)
+
+
+def _answer(command: dcon.Command[Any], group: _Group, frame: bytes) -> Iterator[_Found]:
+    yield _Found(dcon.decode_response(frame, command, group.profile), command, group)
+
+
+_Kinds = tuple[tuple[type[dcon.Response], _Group], ...]
+_RESPONSES: dict[type[dcon.Response], tuple[str, ...]] = {dcon.Refused: ()}
+"""Every response, and the sections of the commands that have it; a refusal is that of any."""
+for _kind in dcon.COMMANDS:
+    if issubclass(_kind, dcon.Command):
+        _RESPONSES[_kind.response] = (*_RESPONSES.get(_kind.response, ()), _kind.section)
+
+
+def _alone_attempts(places: _Places) -> Iterator[tuple[int, _Attempt]]:
+    """Choose how to read responses to whatever modules can be asked."""
+    by_form: dict[Hashable, _Places] = {}
+    for place, profile in places:
+        by_form.setdefault(_RESPONSE_FORM(profile), []).append((place, profile))
+    for alike in by_form.values():
+        kinds = []
+        for kind, sections in _RESPONSES.items():
+            having = [(place, it) for place, it in alike if not sections or not it.refused.issuperset(sections)]
+            if having:
+                kinds.append((kind, _Group(having[0][1], tuple(map(_PLACE, having)))))
+        yield alike[0][0], partial(_response, tuple(kinds))
+
+
+def _response(kinds: _Kinds, frame: bytes) -> Iterator[_Found]:
+    """Read a response without its command: all that it could be."""
+    profile = kinds[0][1].profile
+    body = dcon.unseal(frame, checksum=profile.checksum, leads=_RESPONSE_LEADS).decode("ascii")
+    read = False
+    for at, (kind, group) in enumerate(kinds):
+        try:
+            message = kind.layout.decode(body, profile)
+        except (KeyError, DecodeError):
+            continue
+        read = True
+        yield _Found(message, None, group, at)
+    if not read:
+        raise DecodeError(Fault.COMMAND, frame, 1, allowed="a response of chapter 2", section="2")
+
+
+# --- readings ---------------------------------------------------------------------------------------------------------
+
+
+def _readings(
+    message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile
+) -> tuple[tuple[ChannelReading, ...], DecodeError | None]:
+    """Read the fields of a report, and say why the first one that does not fit its type does not."""
+    if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
+        fields: Iterable[tuple[int | None, str]] = enumerate(message.values)
+    elif isinstance(message, dcon.AnalogInput):
+        fields = [(command.channel if isinstance(command, dcon.ReadAnalogInput) else None, message.value)]
+    else:
+        return (), None
+    data_format = DataFormat.HEX if isinstance(message, dcon.AnalogInputsHex) else profile.data_format
+    types = dict(enumerate(profile.type_codes))
+    uniform = profile.type_codes[0] if len(set(profile.type_codes)) == 1 else None
+    found = []
+    misfit = None
+    for channel, text in fields:
+        type_code = uniform if channel is None else types.get(channel)
+        known = type_code is not None
+        try:
+            reading = decode_field(
+                text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels, lenient=not known
+            )
+        except DecodeError as error:
+            misfit = misfit or error
+            found.append(ChannelReading(channel, text, None, type_code))
+            continue
+        if known:
+            found.append(ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit))
+        else:
+            status = None if reading.status is Status.OK else reading.status
+            found.append(ChannelReading(channel, text, status, None))
+    return tuple(found), misfit

@@ -1,0 +1,108 @@
+"""The lines of a stream, one after the other as they arrive.
+
+Laws: no byte is lost, and what is kept is less than a line and a chunk, however long the line is.
+"""
+
+import os
+import stat
+from collections.abc import Callable, Iterator
+from io import BufferedIOBase
+from select import select
+
+__all__ = ["LONGEST_LINE", "Counted", "Lines"]
+
+LONGEST_LINE = 1 << 16
+"""Bytes of a line beyond which it is read in pieces: a file without line ends is one line."""
+_CHUNK = 1 << 16
+_NAMED = 20
+_GRACE = 0.02
+"""Seconds that a CR which came last waits for the LF that may belong to it."""
+
+
+class Counted:
+    """Numbers of lines, which come in order: how many, and the first of them by number."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._first: list[int] = []
+        self._last = 0
+
+    def add(self, number: int) -> None:
+        """Count a line, once only."""
+        if number == self._last:
+            return
+        self._last = number
+        self.count += 1
+        if self.count <= _NAMED:
+            self._first.append(number)
+
+    def __str__(self) -> str:
+        return ", ".join(map(str, self._first)) + (", ..." if self.count > _NAMED else "")
+
+
+class Lines:
+    """The numbered lines of a stream, each with its end: LF, CR LF, or a CR alone, which ends DCON frames.
+
+    Time: a line is yielded when it is there, a longer one in pieces. A CR that nothing follows for 20 ms is an end.
+    """
+
+    def __init__(self, stream: BufferedIOBase, wait: Callable[[], None]) -> None:
+        """Read `stream`; `wait` is called each time before reading, which may take long."""
+        self._stream = stream
+        self._wait = wait
+        self._live = _is_live(stream)
+        self.long = Counted()
+        """The lines that were read in pieces."""
+
+    def __iter__(self) -> Iterator[tuple[int, bytes]]:
+        """Yield the lines, or pieces of them, and their numbers."""
+        number = 1
+        rest = b""
+        last = b""
+        while chunk := self._more():
+            if last.endswith(b"\r"):
+                chunk = chunk.removeprefix(b"\n")  # of a line that was yielded without it
+            lines = (rest + chunk).splitlines(keepends=True)
+            rest = lines.pop() if lines and not self._is_whole(lines[-1]) else b""
+            last = (lines or [b""])[-1] if not rest else b""
+            for line in lines:
+                yield from self._pieces(number, line)
+                number += 1
+            while len(rest) > LONGEST_LINE:
+                self.long.add(number)
+                yield number, rest[:LONGEST_LINE]
+                rest = rest[LONGEST_LINE:]
+        if rest:
+            yield from self._pieces(number, rest)
+
+    def _more(self) -> bytes:
+        self._wait()
+        return self._stream.read1(_CHUNK)
+
+    def _pieces(self, number: int, line: bytes) -> Iterator[tuple[int, bytes]]:
+        if len(line) > LONGEST_LINE:
+            self.long.add(number)
+        for at in range(0, len(line), LONGEST_LINE):
+            yield number, line[at : at + LONGEST_LINE]
+
+    def _is_whole(self, line: bytes) -> bool:
+        """Whether the last line of a chunk is; a CR may be the first half of a CR LF."""
+        if line.endswith(b"\r") and self._live:
+            self._wait()
+            return not _is_readable(self._stream.fileno())
+        return line.endswith(b"\n")
+
+
+def _is_live(stream: BufferedIOBase) -> bool:
+    """Whether more can come later: not in a file, and not in memory."""
+    try:
+        return not stat.S_ISREG(os.fstat(stream.fileno()).st_mode)
+    except OSError:
+        return False
+
+
+def _is_readable(file: int) -> bool:
+    try:
+        return bool(select([file], [], [], _GRACE)[0])
+    except (OSError, ValueError):  # Windows knows that of sockets only
+        return False
