@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from i7000 import DecodeError, EncodeError, Noise, dcon
-from i7000.dcon.codec import response_candidates
+from i7000.dcon.candidates import response_candidates
 from i7000.dcon.frame import checksum, seal, split, unseal
 from tests.spec.lint import Record
 from tests.vectors import dcon_vectors, message_of, parameters, profile_of
