@@ -135,6 +135,16 @@ def test_a_text_that_is_no_reading_is_told_as_such() -> None:
         dcon.fields(["text"] * 8, Profile(Model.I_7018))  # type: ignore[list-item]
 
 
+class Marked(Reading):
+    """A reading with a name of its own."""
+
+
+def test_a_subclass_of_reading_is_a_reading() -> None:
+    profile = Profile(Model.I_7018)
+
+    assert dcon.fields([Marked(1.0, Unit.VOLT)] * 8, profile) == dcon.fields([Reading(1.0, Unit.VOLT)] * 8, profile)
+
+
 @pytest.mark.parametrize("channel", [-1, -2, -8])
 def test_a_channel_is_not_counted_from_the_end(channel: int) -> None:
     with pytest.raises(EncodeError, match="channel cannot be"):

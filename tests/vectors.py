@@ -38,6 +38,11 @@ def modbus_vectors(*outcomes: str) -> list[Any]:
     return parameters("vectors/modbus", lambda vector: vector["outcome"] in outcomes)
 
 
+def written_modbus_vectors(*outcomes: str) -> list[Any]:
+    """Those whose messages are written as they are read."""
+    return [case for case in modbus_vectors(*outcomes) if "decode-only" not in case.values[0]["flags"]]
+
+
 def parameters(folder: str, choose: Any = lambda _: True) -> list[Any]:
     """The chosen vectors of a folder or file, as pytest parameters with their ids."""
     import pytest  # noqa: PLC0415

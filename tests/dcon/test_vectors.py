@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from i7000 import DataFormat, DecodeError, EncodeError, Noise, TypeCode, dcon
-from i7000.dcon.codec import response_candidates
+from i7000.dcon.candidates import response_candidates
 from i7000.dcon.frame import checksum, seal, split, unseal
 from i7000.readings import decode_field
 from tests.spec.lint import Record

@@ -6,19 +6,14 @@ import pytest
 
 from i7000 import DecodeError, EncodeError, modbus
 from tests.spec.lint import Record
-from tests.vectors import modbus_message_of, modbus_vectors, parameters, profile_of
+from tests.vectors import modbus_message_of, modbus_vectors, parameters, profile_of, written_modbus_vectors
 
 
 def wire(record: Record, name: str) -> bytes:
     return bytes.fromhex(record[f"{name}_wire"])
 
 
-def written(*outcomes: str) -> list[Any]:
-    """The vectors whose messages are written as they are read."""
-    return [case for case in modbus_vectors(*outcomes) if "decode-only" not in case.values[0]["flags"]]
-
-
-@pytest.mark.parametrize("vector", written("response", "exception", "silence"))
+@pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception", "silence"))
 def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
     request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
     may_be_refused = bool({"host-refuses", "host-may-refuse"} & set(vector["flags"]))
@@ -40,7 +35,7 @@ def test_a_request_is_read_as_the_vector_says(vector: Record) -> None:
     assert modbus.is_answered(request) == (vector["outcome"] != "silence")
 
 
-@pytest.mark.parametrize("vector", written("response", "exception"))
+@pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception"))
 def test_a_response_is_written_as_the_vector_says(vector: Record) -> None:
     response, profile = modbus_message_of(vector["response"]), profile_of(vector["profile"])
 

@@ -14,10 +14,10 @@ from i7000.dcon.calibration import (
     ReloadDefaultCalibration,
     SetCalibrationEnabled,
 )
+from i7000.dcon.candidates import candidates, response_candidates
 from i7000.dcon.codec import (
     COMMANDS,
     AnyCommand,
-    candidates,
     decode_command,
     decode_response,
     encode,
@@ -27,7 +27,6 @@ from i7000.dcon.codec import (
     pause_after,
     reading,
     readings,
-    response_candidates,
 )
 from i7000.dcon.cold_junction import (
     CjcEnabled,

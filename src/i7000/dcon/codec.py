@@ -6,11 +6,7 @@ the message back. A frame that any module could have sent or been sent decodes, 
 """
 
 from collections.abc import Iterable
-from functools import cache
-from itertools import product
 from typing import Any, TypeVar
-
-from attrs import evolve
 
 from i7000.arguments import as_bytes, as_tuple, check_int, check_type
 from i7000.dcon.calibration import (
@@ -40,7 +36,7 @@ from i7000.dcon.configuration import (
     SetChannelTypeCode,
     SetConfiguration,
 )
-from i7000.dcon.frame import COMMAND_LEADS, RESPONSE_LEADS, sealed, unseal
+from i7000.dcon.frame import COMMAND_LEADS, sealed, unseal
 from i7000.dcon.identity import (
     ReadFirmwareVersion,
     ReadModuleName,
@@ -73,8 +69,8 @@ from i7000.dcon.watchdog import (
     SetHostWatchdogTimeout,
 )
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.models import AVAILABILITY, Firmware, Model, series
-from i7000.profile import LAST_LEGACY, Profile
+from i7000.models import AVAILABILITY, Firmware
+from i7000.profile import Profile
 from i7000.readings import Reading, decode_field, decode_fields, decode_numbers, encode_field, encode_fields
 from i7000.settings import DataFormat
 from i7000.type_codes import TypeCode
@@ -82,7 +78,6 @@ from i7000.type_codes import TypeCode
 __all__ = [
     "COMMANDS",
     "AnyCommand",
-    "candidates",
     "decode_command",
     "decode_response",
     "encode",
@@ -92,7 +87,6 @@ __all__ = [
     "pause_after",
     "reading",
     "readings",
-    "response_candidates",
 ]
 
 AnyCommand = Command[Any] | Broadcast
@@ -224,10 +218,10 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
         fault = Fault.COMMAND if len(body) > 3 else Fault.LENGTH
         raise DecodeError(fault, frame, min(len(body), 3), allowed="a command of chapter 2", section="2")
     there = [command for command in known if command.section not in profile.refused] or known
-    raise _deepest(command.layout.explain(body, profile, frame, command.section) for command in there)
+    raise deepest(command.layout.explain(body, profile, frame, command.section) for command in there)
 
 
-def _deepest(faults: Iterable[DecodeError]) -> DecodeError:
+def deepest(faults: Iterable[DecodeError]) -> DecodeError:
     """The fault of the command that a frame comes nearest to: it fits the furthest, and has the right length."""
     misfits = (Fault.COMMAND, Fault.UNSUPPORTED)
     return max(faults, key=lambda it: (it.fault not in misfits, it.fault is not Fault.LENGTH, it.offset))
@@ -272,80 +266,6 @@ def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # 
     if isinstance(response, ChannelTypeCode) and response.channel != getattr(command, "channel", None):
         raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed="the one asked for", section=command.section)
 
-
-@cache
-def _profiles() -> tuple[Profile, ...]:
-    """Every profile whose messages could have a form of their own."""
-    differential = [Profile(model) for model in Model]
-    single_ended = [Profile(model, single_ended=True) for model in series("7017Z")]
-    return (*differential, *single_ended)
-
-
-@cache
-def _response_profiles() -> tuple[Profile, ...]:
-    kinds = {(profile.channels, profile.mask_digits): profile for profile in _profiles()}
-    old = Profile(Model.I_7018, firmware=LAST_LEGACY)
-    return tuple(
-        evolve(profile, data_format=data_format) for profile, data_format in product((*kinds.values(), old), DataFormat)
-    )
-
-
-def candidates(frame: bytes) -> tuple[AnyCommand, ...]:
-    r"""Read a frame that a host sent to an unknown module: every command that it could be, by section.
-
-    Shape: frames with and without checksum are thought of; `i7000.models.AVAILABILITY` tells which models have which.
-    Errors: `DecodeError` if it is no command of any model.
-    Manual: 2; E7, E8, E93.
-
-    >>> candidates(b"#0184\r")
-    (ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132))
-    """
-    frame = as_bytes("frame", frame)
-    found: dict[AnyCommand, None] = {}
-    faults = []
-    for checksum, profile in product((False, True), _profiles()):
-        try:
-            found[decode_command(frame, evolve(profile, checksum=checksum))] = None
-        except DecodeError as fault:
-            faults += [] if checksum else [fault]
-    if not found:
-        raise _deepest(faults)
-    return tuple(sorted(found, key=lambda command: COMMANDS.index(type(command))))
-
-
-def response_candidates(frame: bytes) -> tuple[Response, ...]:
-    r"""Read a frame that an unknown module sent in answer to an unknown command: every response that it could be.
-
-    Shape: frames with and without checksum, all data formats and numbers of channels are thought of.
-    Errors: `DecodeError` if it is no response of any model.
-    Manual: 2; E93.
-
-    >>> response_candidates(b"?01\r")
-    (Refused(address=0x01),)
-    """
-    frame = as_bytes("frame", frame)
-    found: dict[Response, None] = {}
-    unseal(frame, checksum=False, leads=RESPONSE_LEADS)
-    for checksum in (False, True):
-        try:
-            body = unseal(frame, checksum=checksum, leads=RESPONSE_LEADS).decode("ascii")
-        except DecodeError:
-            continue
-        for kind, profile in product(_RESPONSES, _response_profiles()):
-            try:
-                found[kind.layout.decode(body, profile)] = None
-            except (KeyError, DecodeError):
-                continue
-    if not found:
-        raise DecodeError(Fault.COMMAND, frame, 1, allowed="a response of chapter 2", section="2")
-    return tuple(found)
-
-
-_RESPONSES: tuple[type[Response], ...] = (
-    Refused,
-    *dict.fromkeys(command.response for command in COMMANDS if issubclass(command, Command)),
-)
-"""Every response, once."""
 
 # --- readings ---------------------------------------------------------------------------------------------------------
 

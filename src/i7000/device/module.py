@@ -18,8 +18,8 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
 
     Shape: `frame` is one whole frame, as the splitter of its protocol finds it.
     Time: `now` is in seconds, of the clock that `power_on` was given.
-    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
     Special: no frame raises; one that is not carried out changes nothing but what time does, see `advance`.
+    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
     Manual: 2, 3; E27, E94.
 
     >>> from i7000.device import factory, power_on

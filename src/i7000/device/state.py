@@ -319,8 +319,7 @@ class State:
         eeprom = _copied(self.eeprom, changes)
         for name, value in changes.items():
             stored = _STORED[name]
-            if stored.validator:
-                stored.validator(eeprom, stored, value)
+            stored.validator(eeprom, stored, value)  # type: ignore[misc] # all of them have one
         profile = self.profile
         if not _OF_PROFILE.isdisjoint(changes):
             profile = profile_of(eeprom, checksum=self.ram.checksum)
