@@ -28,7 +28,7 @@ def race(place):
         modbus.RegisterMap(PROFILE).rows,
         dcon.encode(dcon.ReadConfiguration(1), PROFILE),
         dcon.candidates(b"#0184\\r"),
-        dcon.response_candidates(b"!0105060077\\r"),
+        dcon.response_candidates(b"!01050600AD\\r"),
         device.step(state, REQUEST, device.Signals(), 0.0)[1],
     )
 

@@ -194,7 +194,7 @@ FIELD_OF = {
     "largest CJC offset, either sign": ("2.18", "offset"),
     "longest soft INIT time-out": ("2.34", "timeout"),
     "longest host watchdog time-out": ("2.39", "timeout"),
-    "longest module name that can be set": ("2.33", "name"),
+    "longest module name": ("2.33", "name"),
     "soft INIT time-out": ("2.34", "timeout"),
 }
 """The section and field that a setting, a limit or a default is of."""

@@ -230,7 +230,7 @@ ERRATA: dict[tuple[str, object], list[str]] = {
     ("diagnostics", 1): ["E13", "E14"],
     ("host_watchdog", 1): ["E100"],
     ("limit", 60): ["E32"],
-    ("limit", 6): ["E102"],
+    ("limit", 6): ["E102", "E122"],
     ("default", "fast"): ["E95"],
 }
 OF_A_WHOLE_SETTING = {

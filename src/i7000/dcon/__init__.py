@@ -21,12 +21,8 @@ from i7000.dcon.codec import (
     decode_command,
     decode_response,
     encode,
-    field,
-    fields,
     longest_response,
     pause_after,
-    reading,
-    readings,
 )
 from i7000.dcon.cold_junction import (
     CjcEnabled,
@@ -98,6 +94,12 @@ from i7000.dcon.open_wire import (
     OpenWireDetection,
     ReadOpenWireDetection,
     SetOpenWireDetection,
+)
+from i7000.dcon.reports import (
+    field,
+    fields,
+    reading,
+    readings,
 )
 from i7000.dcon.sampling import (
     ReadSynchronizedData,

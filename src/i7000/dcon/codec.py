@@ -8,7 +8,7 @@ the message back. A frame that any module could have sent or been sent decodes, 
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
-from i7000.arguments import as_bytes, as_tuple, check_int, check_type
+from i7000.arguments import as_bytes, check_type
 from i7000.dcon.calibration import (
     CalibrateChannelSpan,
     CalibrateChannelZero,
@@ -47,9 +47,6 @@ from i7000.dcon.identity import (
     SoftInit,
 )
 from i7000.dcon.inputs import (
-    AnalogInput,
-    AnalogInputs,
-    AnalogInputsHex,
     ReadAnalogInput,
     ReadAnalogInputs,
     ReadAnalogInputsHex,
@@ -60,7 +57,7 @@ from i7000.dcon.inputs import (
     SetConnectingMode,
 )
 from i7000.dcon.open_wire import ReadOpenWireDetection, SetOpenWireDetection
-from i7000.dcon.sampling import ReadSynchronizedData, SynchronizedData, SynchronizedSampling
+from i7000.dcon.sampling import ReadSynchronizedData, SynchronizedSampling
 from i7000.dcon.watchdog import (
     HostOk,
     ReadHostWatchdogStatus,
@@ -71,9 +68,6 @@ from i7000.dcon.watchdog import (
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.models import AVAILABILITY, Firmware
 from i7000.profile import Profile
-from i7000.readings import Reading, decode_field, decode_fields, decode_numbers, encode_field, encode_fields
-from i7000.settings import DataFormat
-from i7000.type_codes import TypeCode
 
 __all__ = [
     "COMMANDS",
@@ -81,12 +75,8 @@ __all__ = [
     "decode_command",
     "decode_response",
     "encode",
-    "field",
-    "fields",
     "longest_response",
     "pause_after",
-    "reading",
-    "readings",
 ]
 
 AnyCommand = Command[Any] | Broadcast
@@ -265,104 +255,6 @@ def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # 
         raise DecodeError(Fault.ADDRESS, frame, 1, field="address", allowed=allowed, section=command.section)
     if isinstance(response, ChannelTypeCode) and response.channel != getattr(command, "channel", None):
         raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed="the one asked for", section=command.section)
-
-
-# --- readings ---------------------------------------------------------------------------------------------------------
-
-
-_REPORTS = (AnalogInputs, AnalogInputsHex, SynchronizedData)
-"""The responses that have a field a channel."""
-
-
-def readings(
-    response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile, *, lenient: bool = False
-) -> tuple[Reading, ...]:
-    """Return what the fields of a report mean, channel 0 first.
-
-    Special: with `lenient`, numbers that no module of the type writes are read too: for modules that differ from the
-        manual.
-    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, types
-        that are not known, or a number whose decimals or size are not those of its type.
-    Manual: 1.11, A.5; E121.
-
-    >>> from i7000 import TypeCode
-    >>> report = AnalogInputs(("+025.12",) * 7 + ("-9999.9",))
-    >>> [reading.value for reading in readings(report, Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8))]
-    [25.12, 25.12, 25.12, 25.12, 25.12, 25.12, 25.12, None]
-    """
-    if profile.__class__ is not Profile:
-        check_type("profile", profile, Profile)
-    if not isinstance(response, _REPORTS):
-        check_type("response", response, *_REPORTS)  # type: ignore[unreachable] # with types
-    values = response.values
-    in_hex = isinstance(response, AnalogInputsHex)
-    found = None if lenient or in_hex else decode_numbers(values, profile)
-    if found is not None:
-        return found
-    if len(values) != len(profile.type_codes):
-        raise _unknown_types("".join(values), profile)
-    return decode_fields(values, profile, DataFormat.HEX if in_hex else profile.data_format, lenient=lenient)
-
-
-def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: bool = False) -> Reading:
-    """Return what the field of one channel means.
-
-    Special: `lenient` as for `readings`.
-    Errors: `DecodeError` as for `readings`.
-    Manual: 1.11, A.5; E121.
-    """
-    check_type("response", response, AnalogInput)
-    types = _types_of(channel, profile)
-    if not types:
-        raise _unknown_types(response.value, profile)
-    return decode_field(response.value, types[0], profile.data_format, legacy=profile.legacy_sentinels, lenient=lenient)
-
-
-def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
-    """Write the fields of a report: what `readings` tells, the other way round.
-
-    Errors: `EncodeError` for a reading that its channel cannot have.
-    Manual: 1.11, A.5; E50, E51.
-
-    >>> from i7000 import Unit
-    >>> fields([Reading(1.5, Unit.VOLT)] * 8, Profile(Model.I_7017))[0]
-    '+01.500'
-    """
-    if profile.__class__ is not Profile:
-        check_type("profile", profile, Profile)
-    if values.__class__ is not tuple:
-        values = as_tuple("values", values)
-    if not {Reading}.issuperset(map(type, values)):
-        for value in values:
-            check_type("values", value, Reading)
-    if len(values) != len(profile.type_codes):
-        raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
-    return encode_fields(values, profile.type_codes, profile.data_format, legacy=profile.legacy_sentinels)
-
-
-def field(value: Reading, channel: int, profile: Profile) -> str:
-    """Write the field of one channel: what `reading` tells, the other way round.
-
-    Errors: `EncodeError` for a reading that the channel cannot have, and for a channel whose type is not known.
-    Manual: 1.11, A.5.
-    """
-    check_type("value", value, Reading)
-    types = _types_of(channel, profile)
-    if not types:
-        raise EncodeError("channel", channel, f"0..{len(profile.type_codes) - 1}, those of a known type", "1.11")
-    return encode_field(value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
-
-
-def _types_of(channel: int, profile: Profile) -> tuple[TypeCode, ...]:
-    """The type of one channel; none if the profile does not have it."""
-    check_type("profile", profile, Profile)
-    check_int("channel", channel)
-    return profile.type_codes[channel : channel + 1] if channel >= 0 else ()
-
-
-def _unknown_types(data: str, profile: Profile) -> DecodeError:
-    allowed = f"a profile that has a type code for each channel; this one has {len(profile.type_codes)}"
-    return DecodeError(Fault.NUMBER, data.encode(), field="type_codes", allowed=allowed, section="1.11")
 
 
 # --- what a driver has to plan for ------------------------------------------------------------------------------------
