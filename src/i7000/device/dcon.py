@@ -1,8 +1,8 @@
 """A module that speaks DCON (manual 2): what it tells, what it does, when it refuses and when it is silent.
 
 Laws: a frame that is damaged, not for this module or of a command that it does not have is not answered; a well-formed
-command that it cannot carry out is answered ``?AA``, and changes nothing (E27). Only ``~**`` is a sign of life of the
-host (E106, assumption).
+command that it cannot carry out is answered ``?AA``, and changes nothing (E27), and so is a name that could be the text
+of another response (E122, assumption). Only ``~**`` is a sign of life of the host (E106, assumption).
 """
 
 from collections.abc import Callable
