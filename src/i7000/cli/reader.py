@@ -54,7 +54,8 @@ _Attempt = Callable[[bytes], Iterable[_Found]]
 _Stages = tuple[tuple[_Attempt, ...], ...]
 """Attempts with the factory defaults, then with all that is possible; the second stage counts if the first fails."""
 _Places = list[tuple[int, Profile]]
-_Meanings = dict[tuple[dcon.Message, dcon.AnyCommand | None, tuple[ChannelReading, ...]], list[_Found]]
+_Groups = tuple[tuple[int, ...], ...]
+_Read = tuple[_Found, tuple[ChannelReading, ...]]
 
 
 class Reader:
@@ -80,39 +81,46 @@ class Reader:
         ['ReadAnalogInputsHex', 'ReadCjcUpdate']
         """
         stages = self._commands if is_command(frame) else self._alone if asked is None else self._answers(asked)
-        odd: _Meanings = {}
-        first_fault = None
+        odd: list[_Read] = []
+        faults: list[DecodeError] = []
         for attempts in stages:
-            found: _Meanings = {}
+            read: list[_Read] = []
             for attempt in attempts:
                 try:
-                    for one in attempt(frame):
-                        readings = tuple(_readings(one.message, one.command, one.group.profile))
-                        which = found if _decimals_agree(readings, one.group.profile) else odd
-                        which.setdefault((one.message, one.command, readings), []).append(one)
+                    for found in attempt(frame):
+                        readings = _readings(found.message, found.command, found.group.profile)
+                        which = read if _decimals_agree(readings, found.group.profile) else odd
+                        which.append((found, readings))
                 except DecodeError as fault:
-                    first_fault = first_fault or fault
-            if found:
-                return self._sorted(found)
+                    faults.append(fault)
+            if read:
+                return self._meanings(read)
         if odd:
-            return self._sorted(odd)
-        assert first_fault is not None  # noqa: S101 - what was asked for was read with a profile at least
-        raise first_fault
+            return self._meanings(odd)
+        raise faults[0]
 
-    def _sorted(self, found: _Meanings) -> tuple[Meaning, ...]:
-        if len(found) > 1:
-            found = dict(sorted(found.items(), key=_order))
-        known = self._known
-        unknown = [("type", known.types), ("format", known.data_format)]
-        result = []
-        for (message, command, readings), those in found.items():
-            fit = self._fit(tuple([one.group.places for one in those]))
-            by_default = readings and fit.profiles == (known.default,)
-            assumed = tuple(name for name, value in unknown if value is None) if by_default else ()
-            result.append(Meaning(message, command, readings, fit, assumed))
-        return tuple(result)
+    def _meanings(self, read: list[_Read]) -> tuple[Meaning, ...]:
+        if len(read) == 1:  # nearly always, if the model is known
+            ((found, readings),) = read
+            return (self._meaning(found, readings, (found.group.places,)),)
+        same: dict[object, list[_Read]] = {}
+        for found, readings in read:
+            same.setdefault((found.message, found.command, readings), []).append((found, readings))
+        return tuple(
+            self._meaning(*those[0], tuple(found.group.places for found, _ in those))
+            for those in sorted(same.values(), key=_order)
+        )
 
-    def _fit_of(self, groups: tuple[tuple[int, ...], ...]) -> Fit:
+    def _meaning(self, found: _Found, readings: tuple[ChannelReading, ...], places: _Groups) -> Meaning:
+        known, fit = self._known, self._fit(places)
+        assumed: tuple[str, ...] = ()
+        if readings and fit.profiles == (known.default,):
+            assumed = tuple(
+                name for name, value in (("type", known.types), ("format", known.data_format)) if value is None
+            )
+        return Meaning(found.message, found.command, readings, fit, assumed)
+
+    def _fit_of(self, groups: _Groups) -> Fit:
         return Fit(tuple(self._profiles[place] for place in sorted(place for places in groups for place in places)))
 
     # --- ways to read -------------------------------------------------------------------------------------------------
@@ -130,7 +138,7 @@ class Reader:
         return tuple(_in_turn(_alone_attempts(places)) for places in self._places)
 
     def _answer_stages(self, asked: bytes) -> _Stages:
-        """Choose how to read the responses to a command: as each profile does that can read the command."""
+        """Choose how to read the responses to a command: as each profile does that can read it, or else as if alone."""
         stages = []
         for groups in self._command_groups:
             answered: dict[dcon.AnyCommand, _Places] = {}
@@ -149,7 +157,7 @@ class Reader:
                     groups_of_it = _groups(places, _RESPONSE_FORM)
                     attempts += [(group.places[0], partial(_answer, command, group)) for group in groups_of_it]
             stages.append(_in_turn(attempts))
-        return tuple(stages)
+        return tuple(stages) if any(stages) else self._alone
 
 
 _PLACE = itemgetter(0)
@@ -167,11 +175,11 @@ def _groups(places: _Places, form: Callable[[Profile], Hashable]) -> tuple[_Grou
     return tuple(_Group(group[0][1], tuple(map(_PLACE, group))) for group in found.values())
 
 
-def _order(item: tuple[Any, list[_Found]]) -> tuple[object, ...]:
+def _order(those: list[_Read]) -> tuple[int, ...]:
     """Sort meanings by section, and then as if each profile were tried by itself."""
-    (message, command, _), found = item
-    section = tuple(map(int, (command or message).section.split(".")))
-    return section, *min((one.group.places[0], one.kind) for one in found)
+    (first, _), *_ = those
+    section = map(int, (first.command or first.message).section.split("."))
+    return *section, *min((found.group.places[0], found.kind) for found, _ in those)
 
 
 def _command(group: _Group, frame: bytes) -> Iterator[_Found]:
@@ -223,24 +231,30 @@ def _response(kinds: _Kinds, frame: bytes) -> Iterator[_Found]:
 # --- readings ---------------------------------------------------------------------------------------------------------
 
 
-def _readings(message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile) -> Iterator[ChannelReading]:
+def _readings(message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile) -> tuple[ChannelReading, ...]:
+    """Read the fields of a report, of which the types may be unknown."""
+    types = profile.type_codes
     if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
+        if len(types) == len(message.values):  # all at once, which takes a fifth of the time
+            values, units, statuses = zip(*dcon.readings(message, profile), strict=True)
+            return tuple(map(ChannelReading, range(len(types)), message.values, statuses, types, values, units))
         fields: Iterable[tuple[int | None, str]] = enumerate(message.values)
     elif isinstance(message, dcon.AnalogInput):
         fields = [(command.channel if isinstance(command, dcon.ReadAnalogInput) else None, message.value)]
     else:
-        return
+        return ()
     data_format = DataFormat.HEX if isinstance(message, dcon.AnalogInputsHex) else profile.data_format
-    types = dict(enumerate(profile.type_codes))
-    uniform = profile.type_codes[0] if len(set(profile.type_codes)) == 1 else None
+    uniform = types[0] if len(set(types)) == 1 else None
+    found = []
     for channel, text in fields:
-        type_code = uniform if channel is None else types.get(channel)
+        type_code = uniform if channel is None else dict(enumerate(types)).get(channel)
         reading = decode_field(text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels)
         if type_code is not None:
-            yield ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit)
+            found.append(ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit))
         else:
             status = None if reading.status is Status.OK else reading.status
-            yield ChannelReading(channel, text, status, None)
+            found.append(ChannelReading(channel, text, status, None))
+    return tuple(found)
 
 
 def _decimals_agree(readings: Iterable[ChannelReading], profile: Profile) -> bool:
