@@ -2,7 +2,7 @@
 
 import sys
 
-from tests.benchmarks import dcon, device, imports, load, modbus
+from tests.benchmarks import dcon, decode, device, imports, load, modbus
 from tests.benchmarks.timing import summary
 
 verdicts = []
@@ -12,6 +12,7 @@ for results in (
     modbus.codec_results,
     modbus.splitter_results,
     device.step_results,
+    decode.decode_results,
     imports.import_results,
     load.load_results,
 ):

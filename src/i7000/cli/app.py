@@ -140,9 +140,7 @@ def decode(
     if not count:
         printer.error("there was nothing to decode")
     if long.count:
-        printer.error(
-            f"{long.count} longer than {LONGEST_LINE} bytes and read in pieces, which may cut frames: line {long}"
-        )
+        printer.error(f"{long.count} too long, read in pieces of {LONGEST_LINE} bytes that may cut frames: line {long}")
     if wrong.count:
         printer.error(f"{wrong.count} not understood: line {wrong}")
     return 1 if wrong.count or long.count else 0
