@@ -12,13 +12,13 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, TypeCode, dcon
+from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, TypeCode
 from i7000.device import CAPACITY, Eeprom, Log, LogCommand, Record, State, factory
 from i7000.device.state import profile_of
 from i7000.errors import I7000Error
 from i7000.simulator.memory import MemoryFileError, load, save
 from i7000.strategies import firmwares, line_settings, report_settings
-from i7000.strategies.dcon import messages
+from i7000.strategies.dcon import names
 from i7000.strategies.device import states
 from i7000.strategies.vocabulary import supported_types
 
@@ -65,7 +65,7 @@ def eeproms(draw: st.DrawFn) -> Eeprom:
         made,
         type_codes=codes * (inputs // len(codes)),
         report_settings=draw(report_settings(profile)),
-        name=draw(messages(dcon.ModuleName)).name,
+        name=draw(names()),
         protocol=draw(st.sampled_from(sorted(made.model.protocols))),
         channel_mask=draw(st.integers(0, (1 << inputs) - 1)),
         channel_offsets=draw(st.tuples(*[st.integers(-128, 127)] * inputs)),
