@@ -141,6 +141,20 @@ def test_a_lenient_caller_is_told_no_text_of_other_firmware() -> None:
         dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+9999",)), I_7017, lenient=True)
 
 
+def test_numbers_of_one_type_are_read_channel_by_channel() -> None:
+    numbers = (0.0, 1.5, -10.0, 10.0, -0.001, 9.999, 11.0, -11.0)
+
+    told = dcon.readings(dcon.AnalogInputs(tuple(f"{number:+07.3f}" for number in numbers)), I_7017)
+
+    assert told == tuple(Reading(number, Unit.VOLT) for number in numbers)
+
+
+def test_readings_in_percent_are_parts_of_the_full_scale() -> None:
+    told = dcon.readings(dcon.AnalogInputs(("+015.00",) * 8), evolve(I_7017, data_format=DataFormat.PERCENT))
+
+    assert [reading.value for reading in told] == [1.5] * 8
+
+
 def test_channels_of_several_types_are_read_each_by_its_own() -> None:
     told = dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+0025.1",)), MIXED_TYPES)
 

@@ -3,11 +3,11 @@
 from attrs import evolve
 from hypothesis import strategies as st
 
-from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, dcon
+from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol
 from i7000.device import Eeprom, Log, LogCommand, Record, factory
 from i7000.device.state import profile_of
 from i7000.strategies import firmwares, line_settings, report_settings
-from i7000.strategies.dcon import messages
+from i7000.strategies.dcon import names
 from i7000.strategies.vocabulary import supported_types
 
 __all__ = ["MODULES", "RECORD", "eeproms"]
@@ -53,7 +53,7 @@ def eeproms(draw: st.DrawFn) -> Eeprom:
         made,
         type_codes=codes * (inputs // len(codes)),
         report_settings=draw(report_settings(profile)),
-        name=draw(messages(dcon.ModuleName)).name,
+        name=draw(names()),
         protocol=draw(st.sampled_from(sorted(made.model.protocols))),
         channel_mask=draw(st.integers(0, (1 << inputs) - 1)),
         channel_offsets=draw(st.tuples(*[st.integers(-128, 127)] * inputs)),

@@ -29,7 +29,7 @@ from i7000.device import (
     power_on,
     step,
 )
-from i7000.strategies.dcon import any_commands
+from i7000.strategies.dcon import any_commands, names
 from i7000.strategies.modbus import any_requests
 from i7000.strategies.vocabulary import addresses, firmwares, line_settings, report_settings, supported_types
 
@@ -103,7 +103,7 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
         type_codes=types,
         report_settings=draw(report_settings(profile)),
         line_settings=draw(line_settings(profile)),
-        name=draw(st.just(made.name) | _names()),
+        name=draw(st.just(made.name) | names()),
         protocol=draw(st.sampled_from(sorted(made.model.protocols))) if protocol is None else protocol,
         channel_mask=draw(st.integers(0, (1 << inputs) - 1)),
         channel_offsets=draw(st.tuples(*[st.integers(-0x80, 0x7F)] * inputs)),
@@ -124,10 +124,6 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
         big_endian=draw(st.booleans()),
         log=draw(logs(now)) if made.model is Model.M_7017mC_16 else made.log,
     )
-
-
-def _names() -> SearchStrategy[str]:
-    return st.from_regex(r"[0-9A-Za-z .-]{1,6}", fullmatch=True)
 
 
 @st.composite

@@ -8,6 +8,7 @@ from i7000.strategies.dcon.messages import (
     commands,
     exchanges,
     messages,
+    names,
     profiles_with,
     responses,
 )
@@ -25,6 +26,7 @@ __all__ = [
     "exchanges",
     "frames",
     "messages",
+    "names",
     "near_misses",
     "profiles_with",
     "responses",

@@ -22,6 +22,7 @@ from i7000.dcon import (
     Command,
     FirmwareVersion,
     Message,
+    ModuleName,
     ReadAnalogInput,
     ReadConfiguration,
     Refused,
@@ -32,7 +33,7 @@ from i7000.dcon import (
 from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
-from i7000.dcon.names import CHARACTERS
+from i7000.dcon.names import CHARACTERS, is_name
 from i7000.fields import FIELD_WIDTHS
 from i7000.models import AVAILABILITY
 from i7000.readings import encode_field
@@ -45,6 +46,7 @@ __all__ = [
     "commands",
     "exchanges",
     "messages",
+    "names",
     "profiles_with",
     "responses",
 ]
@@ -153,7 +155,7 @@ def _part(  # noqa: PLR0911 - a table
         known = st.sampled_from((*supported_types(profile), MIXED))
         return known | st.integers(0, 0xFF).map(TypeCode.of) if free else known
     if part.longest and not part.contextual:
-        return (_VERSIONS if kind is FirmwareVersion else _NAMES).filter(part.accepts)
+        return _versions() if kind is FirmwareVersion else names() if kind is ModuleName else _texts()
     if part.longest:
         width = part.longest(profile) // (1 if origin is str else profile.channels)
         data_format = DataFormat.HEX if width == FIELD_WIDTHS[DataFormat.HEX] else profile.data_format
@@ -163,8 +165,18 @@ def _part(  # noqa: PLR0911 - a table
     return addresses() if attribute.name in ("address", "new_address") else _number(part, profile, accepted=accepted)
 
 
-_VERSIONS = st.builds("{}{}.{}".format, st.sampled_from(ascii_uppercase), st.integers(0, 9), st.integers(0, 99))
-_NAMES = st.text(st.sampled_from(sorted(CHARACTERS, key=lambda it: (not it.isalpha(), it))), min_size=1, max_size=6)
+def _versions() -> SearchStrategy[str]:
+    return st.builds("{}{}.{}".format, st.sampled_from(ascii_uppercase), st.integers(0, 9), st.integers(0, 99))
+
+
+def _texts() -> SearchStrategy[str]:
+    letters_first = sorted(CHARACTERS, key=lambda character: (not character.isalpha(), character))
+    return st.text(st.sampled_from(letters_first), min_size=1, max_size=6)
+
+
+def names() -> SearchStrategy[str]:
+    """Make names that a module can have."""
+    return _texts().filter(is_name)
 
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
