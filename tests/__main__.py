@@ -10,7 +10,7 @@ CHECKS = (
     ("ruff", "format", "--check", "."),
     ("mypy", "src", "tests"),
     ("tests.spec.lint",),
-    ("pytest", "--cov", "--cov-report=term"),
+    ("pytest", "--numprocesses=auto", "--cov", "--cov-report=term"),
 )
 
 for check in CHECKS:
