@@ -45,3 +45,5 @@ __all__ = [
     "Unit",
     "series",
 ]
+
+__version__ = "0.1.0"
