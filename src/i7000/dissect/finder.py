@@ -21,7 +21,7 @@ from i7000.dissect.shapes import is_shaped, report
 from i7000.dissect.spelling import Run, decimal_runs, hex_runs, literal_runs, loose_hex_runs, text_of
 from i7000.errors import Noise
 
-__all__ = ["Found", "Kind", "find"]
+__all__ = ["Found", "Kind", "bytes_of", "find", "frames_of"]
 
 
 class Kind(StrEnum):
@@ -74,6 +74,15 @@ def find(text: str) -> tuple[Found, ...]:
         if not any(map(found.overlaps, taken)):
             taken.append(found)
     return tuple(sorted(taken, key=lambda found: found.start))
+
+
+def bytes_of(text: str) -> bytes:
+    """Return the bytes that a line spells in hex, for a frame that is cut over several lines; empty if there are none.
+
+    >>> bytes_of("recv: 0x1 0x4 0x2").hex()
+    '010402'
+    """
+    return _wire(max(hex_runs(text), key=len, default=[]))
 
 
 def _worth(found: Found) -> tuple[bool, int]:
@@ -129,7 +138,7 @@ def _in_run(text: str, run: Run) -> Iterator[Found]:
     if len(run) < _SHORTEST_COLUMN:
         return
     styles = [_style(text, run, at) for at in range(1, len(run))]
-    frames = list(_spans(_wire(run)))
+    frames = list(frames_of(_wire(run)))
     at = 0
     beside: set[_Style] = set()
     for kind, start, end in (*frames, (Kind.DAMAGED, len(run), len(run))):
@@ -164,7 +173,7 @@ def _style(text: str, run: Run, at: int) -> _Style:
     return _Style("".join(gap.split()) or gap[:1], max(before.word, byte.word), decoration)
 
 
-def _spans(wire: bytes) -> Iterator[tuple[Kind, int, int]]:
+def frames_of(wire: bytes) -> Iterator[tuple[Kind, int, int]]:
     """Find the good frames in bytes: where they are, in order, none overlapping."""
     found = list(_spans_of(Kind.MODBUS, wire))
     for kind, start, end in _spans_of(Kind.DCON, wire):
