@@ -22,6 +22,7 @@ RINGS = {
     "dcon": 2,
     "modbus": 2,
     "device": 3,
+    "dissect": 3,
     "host": 3,
     "strategies": 4,
     "cli": 4,

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from importlib.metadata import version
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -90,6 +91,10 @@ def test_every_function_has_its_row_and_its_vectors(request_class: Any) -> None:
 
     assert [row["function"] for row in rows("modbus_functions")].count(code) == 1
     assert len(list((SPEC / "vectors" / "modbus").glob(f"{code}-*.json"))) == 1
+
+
+def test_the_version_is_that_of_the_installed_package() -> None:
+    assert i7000.__version__ == version("i7000")
 
 
 def test_importing_the_package_imports_no_extra() -> None:

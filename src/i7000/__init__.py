@@ -47,3 +47,5 @@ __all__ = [
     "Unit",
     "series",
 ]
+
+__version__ = "0.1.0"

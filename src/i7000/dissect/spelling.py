@@ -1,0 +1,182 @@
+r"""The ways in which people and programs spell bytes, and the runs of bytes that a line of text spells.
+
+A run is bytes that follow one another in one way of spelling, each with its place in the line. Nothing is decided here:
+a line usually spells several runs of which few are frames, and the finder keeps those that are.
+
+Laws: every run is in the order of the line; no reader takes the same characters twice.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+__all__ = ["Byte", "decimal_runs", "hex_runs", "literal_runs", "loose_hex_runs", "text_of"]
+
+
+class Byte(NamedTuple):
+    """A byte that a line spells."""
+
+    value: int
+    start: int
+    end: int
+    """Where in the line its spelling begins and ends."""
+    word: int
+    """How many bytes are written in one word with it: 1 in ``01 04``, 2 in ``0104``."""
+
+
+Run = list[Byte]
+
+_DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
+_TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
+_NUMBERS = re.compile(
+    rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
+    r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
+    r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+)
+"""What looks like bytes and is none."""
+
+
+def _without_numbers(text: str) -> str:
+    """Cross out dates, times and offsets by letters, so that no run goes through them."""
+    return _NUMBERS.sub(lambda found: "z" * len(found[0]), text)
+
+
+_HEX = re.compile(
+    r"\\[xX]([0-9A-Fa-f]{2})|\\u00([0-9A-Fa-f]{2})"
+    r"|(?<![0-9A-Za-z])(?:0[xX]|&[hH]|16#)?((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
+    r"|(?<![0-9A-Za-z])0[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
+)
+_LOOSE_HEX = re.compile(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
+_DECIMAL = re.compile(r"(?<![0-9A-Za-z])(\d{1,3})(?![0-9A-Za-z])")
+_BETWEEN = re.compile(r"[\W_]{0,8}")
+
+
+def hex_runs(text: str) -> Iterator[Run]:
+    r"""Find bytes of two hex digits: ``01 04``, ``0104``, ``0x1``, ``01h``, ``[01]``, ``\x01``, with anything between.
+
+    >>> [[byte.value for byte in run] for run in hex_runs("TX [01][04], then 0x1F")]
+    [[1, 4], [31]]
+    """
+    return _runs(_without_numbers(text), _HEX, _pairs)
+
+
+def loose_hex_runs(text: str) -> Iterator[Run]:
+    """Find bytes of one or two hex digits: ``1 4 0 CA``."""
+    return _runs(_without_numbers(text), _LOOSE_HEX, lambda word: _one(word, 16))
+
+
+def decimal_runs(text: str) -> Iterator[Run]:
+    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``."""
+    return _runs(text, _DECIMAL, lambda word: _one(word, 10))
+
+
+def _runs(text: str, words: re.Pattern[str], read: Callable[[re.Match[str]], Run]) -> Iterator[Run]:
+    run: Run = []
+    for word in words.finditer(text):
+        if run and not _BETWEEN.fullmatch(text, run[-1].end, word.start()):
+            yield run
+            run = []
+        read_bytes = read(word)
+        if not read_bytes and run:
+            yield run
+            run = []
+        run += read_bytes
+    if run:
+        yield run
+
+
+def _pairs(word: re.Match[str]) -> Run:
+    group = word.lastindex or 0
+    digits, start, last = word[group], word.start(group), word.end()
+    if len(digits) <= len("FF"):
+        return [Byte(int(digits, 16), word.start(), last, 1)]
+    count = len(digits) // 2
+    ends = [start + 2 * at + 2 for at in range(count - 1)] + [last]
+    return [Byte(int(digits[2 * at : 2 * at + 2], 16), start + 2 * at, ends[at], count) for at in range(count)]
+
+
+def _one(word: re.Match[str], base: int) -> Run:
+    value = int(word[1], base)
+    return [Byte(value, *word.span(), 1)] if value <= 0xFF else []
+
+
+# --- text with escapes ------------------------------------------------------------------------------------------------
+
+_LETTERS = {
+    "a": 7, "b": 8, "t": 9, "n": 10, "v": 11, "f": 12, "r": 13, "e": 27, "s": 32,
+    "\\": 0x5C, "'": 0x27, '"': 0x22,
+}  # fmt: skip
+_C = re.compile(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
+_LABVIEW = re.compile(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
+_LITERAL = re.compile(r"""(["'`])((?:\\.|(?!\1)[^\\])*)\1""")
+_BARE = re.compile(r"\\.*\\[^\s\"'`\])}>,;]*")
+"""Characters from the first escape to the end of the last."""
+
+
+def literal_runs(text: str) -> Iterator[tuple[Run, bool]]:
+    r"""Find the bytes of strings with escapes, and whether they are in quotes and not those of LabVIEW.
+
+    >>> [bytes(byte.value for byte in run) for run, usual in literal_runs(r'write(3, "\1\4\0b", 4) = 4') if usual]
+    [b'\x01\x04\x00b']
+    """
+    if "\\" not in text:
+        return
+    spans = [found.span(2) for found in _LITERAL.finditer(text) if "\\" in found[2]]
+    bare = None if spans else _BARE.search(text)
+    if bare:
+        spans = [bare.span()]
+    for start, end in spans:
+        for escapes in (_C, _LABVIEW):
+            run = [_character(one, 8 if escapes is _C else 16) for one in escapes.finditer(text, start, end)]
+            if run and all(byte.value <= 0xFF for byte in run):
+                yield run, escapes is _C and not bare
+
+
+def _character(one: re.Match[str], base: int) -> Byte:
+    digits = one[1] or one[2]
+    if digits:
+        value = int(digits, 16)
+    elif one[3]:
+        value = int(one[3], base)
+    else:
+        value = _LETTERS[one[4]] if one[4] else ord(one[5])
+    return Byte(value, *one.span(), 1)
+
+
+_ENDS = r"""
+    [(<\[{] (?: CR | cr | Cr ) [)>\]}] | [<\[{(] (?:0x)? 0?[dD] [>\]})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
+    | \\r | \^M | \#13 (?!\d) | &\#13; | %0[dD] | \u240d | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+"""
+_LINE_FEEDS = r"""
+    [(<\[{] (?: LF | lf | Lf | NL ) [)>\]}] | [<\[{(] (?:0x)? 0?[aA] [>\]})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
+    | \\n | \^J | \#10 (?!\d) | &\#10; | %0[aA] | \u240a | \n
+"""
+_SPELLED = re.compile(
+    rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"
+    r"| \\x(?P<hex>[0-9A-Fa-f]{2}) | \\u00(?P<unicode>[0-9A-Fa-f]{2}) | \\(?P<octal>[0-3][0-7]{2})"
+    r"| (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)"
+)
+_CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
+
+
+def text_of(text: str) -> tuple[str, Sequence[int]]:
+    r"""Replace every way to write a carriage return, a line feed, a blank and other characters by the character.
+
+    Shape: the characters, and where each begins in `text`; one place more is the end of `text`.
+
+    >>> text_of("#01<CR>")[0]
+    '#01\r'
+    """
+    characters: list[str] = []
+    places: list[int] = []
+    at = 0
+    for found in _SPELLED.finditer(text):
+        kind = found.lastgroup or ""
+        digits = found[kind]
+        plain = _CHARACTERS.get(kind) or chr(int(digits, 8 if kind == "octal" else 16))
+        characters += (text[at : found.start()], plain)
+        places += range(at, found.start() + 1)
+        at = found.end()
+    if not at:
+        return text, range(len(text) + 1)
+    return "".join((*characters, text[at:])), [*places, *range(at, len(text) + 1)]

@@ -1,0 +1,96 @@
+"""The lines of a log, in their order -> the frames in them, those that are cut over several lines put together.
+
+Laws: every line that is not blank is in exactly one piece, or, with several frames, in one piece a frame. A frame is
+put together only where nothing else can be made of its parts.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from attrs import frozen
+
+from i7000.dissect.finder import Found, Kind, bytes_of, find, frames_of
+from i7000.modbus import LONGEST_FRAME
+
+__all__ = ["Piece", "pieces"]
+
+
+@frozen
+class Piece:
+    """A frame, or a line in which there is none."""
+
+    number: int
+    """The line, or the first of them."""
+    last: int
+    text: str
+    """What was written: a part of a line, a line, or several."""
+    kind: Kind | None
+    """None: there is no frame."""
+    wire: bytes
+
+
+@frozen
+class _Part:
+    """A line that spells bytes which are no frame yet."""
+
+    number: int
+    text: str
+    found: tuple[Found, ...]
+    wire: bytes
+
+
+def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
+    r"""Find the frames in numbered lines.
+
+    >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
+    [(1, 2, '01040000000131ca')]
+    """
+    parts: list[_Part] = []
+    for number, text in lines:
+        found = find(text)
+        wire = b"" if any(it.kind is not Kind.DAMAGED for it in found) else bytes_of(text)
+        if not wire:
+            yield from _apart(parts)
+            parts = []
+            yield from _of_line(number, text, found)
+            continue
+        parts.append(_Part(number, text, found, wire))
+        while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
+            yield from _apart(parts[:1])
+            del parts[0]
+        whole = _whole(parts)
+        if whole is not None:
+            yield from _apart(parts[:whole])
+            yield from _joined(parts[whole:])
+            parts = []
+    yield from _apart(parts)
+
+
+def _whole(parts: list[_Part]) -> int | None:
+    """From which of the parts on they are whole frames."""
+    for first in range(len(parts) - 1):
+        wire = b"".join(part.wire for part in parts[first:])
+        if sum(end - start for _, start, end in frames_of(wire)) == len(wire):
+            return first
+    return None
+
+
+def _joined(parts: list[_Part]) -> Iterator[Piece]:
+    text = "\n".join(part.text for part in parts)
+    wire = b"".join(part.wire for part in parts)
+    for kind, start, end in frames_of(wire):
+        yield Piece(parts[0].number, parts[-1].number, text, kind, wire[start:end])
+
+
+def _apart(parts: Iterable[_Part]) -> Iterator[Piece]:
+    for part in parts:
+        yield from _of_line(part.number, part.text, part.found)
+
+
+def _of_line(number: int, text: str, found: tuple[Found, ...]) -> Iterator[Piece]:
+    if not found and text.strip():
+        yield Piece(number, number, text, None, b"")
+    at = 0
+    for it in found:
+        end = len(text) if it is found[-1] else it.end
+        yield Piece(number, number, text[at:end], it.kind, it.wire)
+        at = end

@@ -1,0 +1,137 @@
+"""The ways in which logs write frames, and what stands around them: each a few words of one kind.
+
+Laws: a spelling says which bytes it means; what stands around it has no frame in it.
+"""
+
+from collections.abc import Callable
+from typing import Final
+
+Spelling = Callable[[bytes], str]
+
+
+def _joined(separator: str, form: str) -> Spelling:
+    return lambda wire: separator.join(form % byte for byte in wire)
+
+
+def _words(wire: bytes) -> str:
+    return " ".join(wire[at : at + 2].hex() for at in range(0, len(wire), 2))
+
+
+def _dots(wire: bytes) -> str:
+    return "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in wire)
+
+
+_C_ESCAPES = {7: r"\a", 8: r"\b", 9: r"\t", 10: r"\n", 11: r"\v", 12: r"\f", 13: r"\r", 27: r"\e", 34: r"\"", 92: r"\\"}
+
+
+def _in_c(wire: bytes) -> str:
+    """Write a string as the UART debugger of ESPHome does."""
+    return "".join(_C_ESCAPES.get(byte) or (chr(byte) if 32 <= byte < 127 else rf"\x{byte:02X}") for byte in wire)
+
+
+BYTES: Final[dict[str, Spelling]] = {
+    "blanks": _joined(" ", "%02x"),
+    "upper case": _joined(" ", "%02X"),
+    "one word": bytes.hex,
+    "one word, upper case": lambda wire: wire.hex().upper(),
+    "colons": _joined(":", "%02x"),
+    "dashes": _joined("-", "%02X"),
+    "commas": _joined(",", "%02x"),
+    "commas and blanks": _joined(", ", "%02X"),
+    "semicolons": _joined(";", "%02X"),
+    "bars": _joined("|", "%02X"),
+    "underscores": _joined("_", "%02x"),
+    "dots": _joined(".", "%02x"),
+    "slashes": _joined("/", "%02x"),
+    "words of two": _words,
+    "0x": _joined(" ", "0x%02x"),
+    "0x and commas": _joined(", ", "0x%02X"),
+    "pymodbus": lambda wire: " ".join(map(hex, wire)),
+    "0x1 and commas": lambda wire: ",".join(map(hex, wire)),
+    "h": _joined(" ", "%02Xh"),
+    "Basic": _joined(" ", "&H%02X"),
+    "Pascal": _joined(" ", "$%02X"),
+    "percent": _joined("", "%%%02X"),
+    "libmodbus, requests": _joined("", "[%02X]"),
+    "libmodbus, responses": _joined("", "<%02x>"),
+    "libmodbus with blanks": _joined("", "< %02x >"),
+    "braces": _joined("", "{%02X}"),
+    "escapes": _joined("", r"\x%02x"),
+    "a string of escapes": lambda wire: f'"{_joined("", chr(92) + "x%02x")(wire)}"',
+    "JSON, a string": lambda wire: f'"{_joined("", chr(92) + "u%04x")(wire)}"',
+    "octal": lambda wire: f'"{_joined("", chr(92) + "%03o")(wire)}"',
+    "a string of C": lambda wire: f'"{_in_c(wire)}"',
+    "strace": lambda wire: f'write(3, "{_in_c(wire)}", {len(wire)}) = {len(wire)}',
+    "Python": repr,
+    "Python, bytearray": lambda wire: repr(bytearray(wire)),
+    "Python, fromhex": lambda wire: f"bytes.fromhex('{wire.hex()}')",
+    "Python, a list": lambda wire: f"bytes({list(wire)})",
+    "node": lambda wire: f"<Buffer {wire.hex(' ')}>",
+    "C, an array": lambda wire: f"{{{_joined(', ', '0x%02x')(wire)}}}",
+    "Rust": lambda wire: f"vec![{_joined(', ', '0x%02x')(wire)}]",
+    "JSON, strings": lambda wire: f'["{_joined(chr(34) + "," + chr(34), "%02x")(wire)}"]',
+    "JSON, numbers": lambda wire: f"[{','.join(map(str, wire))}]",
+    "decimal": lambda wire: " ".join(map(str, wire)),
+    "modbus-tk": lambda wire: "-".join(map(str, wire)),
+    "decimal, three digits": _joined(" ", "%03d"),
+    "ModScan": _joined("", "[%03d]"),
+    "hex without zeros": _joined(" ", "%x"),
+    "hexdump": lambda wire: f"00000000  {wire.hex(' ')}  |{_dots(wire)}|",
+    "xxd": lambda wire: f"00000000: {_words(wire)}  {_dots(wire)}",
+    "tshark": lambda wire: f"0000  {wire.hex(' ')}   {_dots(wire)}",
+    "a sniffer": lambda wire: f"{wire.hex(' ')}    {_dots(wire)}",
+}
+"""The bytes of a frame of either protocol."""
+
+COLUMNS: Final = frozenset({"hexdump", "xxd", "tshark", "a sniffer"})
+"""Spellings that take a whole line."""
+
+ENDS: Final = (
+    "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", "<0d>", "<0D>",
+    "<0x0D>", "{0D}", "[0D]",
+    "[0d][0a]", "^M", "^M^J", "#13", "&#13;", "%0D", r"\x0D", r"\x0d", r"\015", r"\0D", r"\u000d",
+    "\u240d", "\u21b5",
+)  # fmt: skip
+"""The carriage return of a frame that is written as text."""
+
+
+def _text(wire: bytes) -> str:
+    return wire[:-1].decode("ascii")
+
+
+TEXTS: Final[dict[str, Spelling]] = {
+    **{f"text {end}": lambda wire, end=end: _text(wire) + end for end in ENDS},  # type: ignore[misc]
+    **{f"a string {end}": lambda wire, end=end: f'"{_text(wire)}{end}"' for end in ENDS},  # type: ignore[misc]
+    "strace": lambda wire: rf'write(3, "{_text(wire)}\r", {len(wire)}) = {len(wire)}',
+    "LabVIEW": lambda wire: _text(wire).replace(" ", r"\s") + r"\r",
+    "HTML": lambda wire: _text(wire).replace(">", "&gt;"),
+}
+"""A DCON frame as text."""
+
+BEFORE: Final = (
+    "", "TX: ", "RX: ", "> ", "< ", "-> ", "<- ", ">>> ", "<<< ", "=> ", "send: ", "recv(8): ", "data=", '"data": ',
+    "Response = ", "request: ", "(8 bytes) ", "<< [8] ", "TX(8)=", "port 3 -> ", "1: ", "#5 ", "1;TX;", "0.020000 ",
+    "1700000000.123 ", "12:00:01 ", "[12:00:01] ", "[ 1234.567890] ", "08:15:00,123 [DEBUG] send: ",
+    "2024-03-07 08:15:00.120 -> ", "2024-03-07T08:15:00.120Z TX ", "03/07/2024 8:15:00 AM: ", "07.03.2024 08:15:00 ",
+    "Mar  7 08:15:00 host app[123]: ", "INFO:root:Tx: ", "COM3: ", "/dev/ttyUSB0 > ", "Written data (COM3)  ",
+    "\u041e\u0442\u043f\u0440\u0430\u0432\u043b\u0435\u043d\u043e: ",
+)  # fmt: skip
+"""What stands before a frame: directions, dates, times, ports, lengths, in the words of many tools and languages."""
+
+AFTER: Final = (
+    "", " ", "\t", " (15 ms)", " // firmware", " (8 bytes), roundtrip time: 41.7 ms.", " ok", " # comment", "; ", ".",
+    " old_data:  addr=None", ", 8 bytes", " [8]", " in 15 ms", " len=8",
+)  # fmt: skip
+BETWEEN: Final = (
+    " -> ", " <- ", " => ", " RX: ", "  Response: ", " | ", " , ", ", responses: [ ", " = ", " / ", "\t", "; rx=",
+    " RX(7) ",
+)  # fmt: skip
+"""What stands between the frames of one line."""
+
+WITHOUT_FRAMES: Final = (
+    "", " ", "COM3 opened at 9600 8N1", "Waiting for a confirmation...", "Bytes flushed (0)",
+    "$PATH and 50% done! really?",
+    "2024-03-07 08:15:00.120 INFO started", "retry 3 of 5 in 0.25 s", "serial 12345678, firmware B3.7", "#define X",
+    "0000", "deadbeef", "port closed (errno 5)", "timeout after 1000 ms!", "-> <- => >>> <<<",
+    "192.168.0.7:502 connected",
+)  # fmt: skip

@@ -1,0 +1,172 @@
+"""Every frame of a line is found, whatever its spelling, and nothing else is taken for one."""
+
+from itertools import cycle, pairwise
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from i7000 import modbus
+from i7000.dissect.finder import Kind, find
+from i7000.dissect.shapes import is_shaped
+from i7000.strategies.dcon import exchanges
+from i7000.strategies.modbus import exchanges as modbus_exchanges
+from tests.dissect.spellings import AFTER, BEFORE, BETWEEN, BYTES, COLUMNS, TEXTS, WITHOUT_FRAMES, Spelling
+
+REQUEST = modbus.seal(bytes.fromhex("010400000001"))
+RESPONSE = modbus.seal(bytes.fromhex("0104020b61"))
+MODBUS = [
+    modbus.seal(bytes.fromhex(body))
+    for body in (
+        "010400000008", "01041007d007d1000000ff80007fff0a0d1c25", "010601e80064", "010f00310005011f",
+        "11100000000204000a0102", "018302", "0a030d0a0002", "20040000000d",
+    )
+]  # fmt: skip
+DCON = [
+    f"{body}\r".encode()
+    for body in (
+        "$012", "!01050600", "#01", "#010", ">+0025.1+0025.3+0024.9+9999.9-0003.2+0101.7       +0025.0", ">+025.12",
+        "!017018R", "!01B3.7", "?01", "!01", "%0101050600", "$017C0R20", "~01O7019A", "#**", "$019+0032", "!01+0010",
+        "~01EO", "@01S1", ">0000012301257FFF1802744F98238124", "$012B7", "~0131FF",
+    )
+]  # fmt: skip
+
+
+def modbus_wires() -> st.SearchStrategy[bytes]:
+    return modbus_exchanges().flatmap(lambda it: st.sampled_from((it.request_wire, it.response_wire)))
+
+
+SPELLINGS = [*(("bytes", name) for name in BYTES), *(("text", name) for name in TEXTS)]
+"""Numbers in words are read for good frames only, so that what is damaged is not found in them."""
+
+
+def spelling(kind: str, name: str) -> Spelling:
+    return (BYTES if kind == "bytes" else TEXTS)[name]
+
+
+def wires(text: str) -> list[bytes]:
+    return [found.wire for found in find(text)]
+
+
+@pytest.mark.parametrize(("kind", "name"), SPELLINGS, ids=" ".join)
+def test_a_frame_is_found_in_every_spelling_and_nothing_else(kind: str, name: str) -> None:
+    spell = spelling(kind, name)
+    frames = cycle(DCON if kind == "text" else MODBUS + DCON)
+    lines = [(before, next(frames), after) for before, after in zip(BEFORE * 2, cycle(AFTER), strict=False)]
+    missed = [line for line in lines if wires(line[0] + spell(line[1]) + line[2]) != [line[1]]]
+
+    assert missed == []
+
+
+@pytest.mark.parametrize(("kind", "name"), SPELLINGS, ids=" ".join)
+def test_two_frames_of_a_line_are_found_and_nothing_between(kind: str, name: str) -> None:
+    if name in COLUMNS:
+        pytest.skip("a dump has one frame a line")
+    spell = spelling(kind, name)
+    frames = DCON if kind == "text" else MODBUS + DCON
+    pairs = zip(frames, frames[1:] + frames[:1], cycle(BETWEEN), strict=False)
+    missed = [pair for pair in pairs if wires(spell(pair[0]) + pair[2] + spell(pair[1])) != [*pair[:2]]]
+
+    assert missed == []
+
+
+@pytest.mark.parametrize("text", WITHOUT_FRAMES)
+def test_a_line_without_a_frame_has_none(text: str) -> None:
+    assert find(text) == ()
+
+
+@given(
+    st.sampled_from(SPELLINGS), st.sampled_from(BEFORE), st.sampled_from(AFTER),
+    exchanges().flatmap(lambda it: st.sampled_from((it.command_wire, it.response_wire))) | modbus_wires(),
+)  # fmt: skip
+def test_what_a_module_hears_and_says_is_found_in_every_spelling(
+    which: tuple[str, str], before: str, after: str, wire: bytes
+) -> None:
+    kind, name = which
+    is_text = wire.endswith(b"\r") and wire[:-1].isascii() and is_shaped(wire[:-1].decode("ascii"))
+    assume(is_text or kind == "bytes")
+    assume(modbus.crc16(wire) == 0 or is_text)
+
+    assert wires(before + spelling(kind, name)(wire) + after) == [wire]
+
+
+@given(st.text(max_size=200) | st.text("$#%!?>@~0123456789ABCDEFx\\'\"[]<>(){}.,:;- \r\n", max_size=200))
+def test_no_line_raises_and_nothing_found_overlaps(text: str) -> None:
+    found = find(text)
+
+    assert all(0 <= one.start < one.end <= len(text) for one in found)
+    assert all(one.end <= other.start for one, other in pairwise(found))
+    assert all(one.wire for one in found)
+
+
+def test_a_byte_before_a_frame_in_its_own_spelling_is_found_as_damaged() -> None:
+    noise, frame = find("<00><01><04><02><0B><61><7F><E8>Bytes flushed (0)")
+
+    assert (noise.kind, noise.wire) == (Kind.DAMAGED, b"\x00")
+    assert (frame.kind, frame.wire) == (Kind.MODBUS, RESPONSE)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "12 01:04:00:00:00:01:31:CA",
+        "1700000000 01-04-00-00-00-01-31-CA",
+        "12 0x1 0x4 0x0 0x0 0x0 0x1 0x31 0xca",
+        "1700000000 0104 0000 0001 31CA",
+        "12 $01 $04 $00 $00 $00 $01 $31 $CA",
+    ],
+)
+def test_a_number_before_a_frame_in_another_spelling_is_none_of_its_bytes(text: str) -> None:
+    assert wires(text) == [REQUEST]
+
+
+@pytest.mark.parametrize(
+    ("text", "wire"),
+    [
+        ("TX 01 04 00 00 00 01 31 CB", bytes.fromhex("01040000000131CB")),
+        ("01040000000131CB", bytes.fromhex("01040000000131CB")),
+        (r"Response: '\x00\x1e\x04\x02\x0ba\xea' (00 1E 04 02 0B 61 EA) (7 bytes)", bytes.fromhex("001E04020B61EA")),
+        (r"b'\x01\x04\x00a'", b"\x01\x04\x00a"),
+        ("$0aM", b"$0aM\r"),
+        ("#01 extra\\r", b"#01 extra\r"),
+        ("$01zz", b"$01zz\r"),
+        (">+0025.1+00", b">+0025.1+00\r"),
+        ('"$012\\n"', b"$012\n"),
+        ("%0101", b"%0101\r"),
+    ],
+)
+def test_a_damaged_frame_is_found_as_it_is_written(text: str, wire: bytes) -> None:
+    (found,) = find(text)
+
+    assert (found.kind, found.wire) == (Kind.DAMAGED, wire)
+
+
+def test_of_two_frames_the_damaged_one_is_found_too() -> None:
+    request, response = find("TX 01 04 00 00 00 01 31 CA RX 01 04 02 0B 61 7F E9")
+
+    assert (request.kind, request.wire) == (Kind.MODBUS, REQUEST)
+    assert (response.kind, response.wire) == (Kind.DAMAGED, RESPONSE[:-1] + b"\xe9")
+
+
+def test_blanks_in_a_report_are_a_disabled_channel_however_they_are_written() -> None:
+    assert wires(r">+0025.1\s\s\s\s\s\s\s+0024.9\r") == [b">+0025.1       +0024.9\r"]
+
+
+def test_both_protocols_are_found_in_one_line() -> None:
+    assert wires("$012 and then 01 04 00 00 00 01 31 CA") == [b"$012\r", REQUEST]
+
+
+def test_the_place_of_a_frame_in_the_line_is_told() -> None:
+    (found,) = find("TX: $012 ok")
+
+    assert (found.start, found.end) == (4, 8)
+
+
+def test_text_inside_a_good_frame_is_not_a_frame() -> None:
+    wire = modbus.seal(b"\x01\x04\x06$012\r\x00")
+
+    assert wires(wire.hex(" ")) == [wire]
+
+
+def test_a_string_with_a_character_that_is_no_byte_has_no_frame() -> None:
+    assert wires('"\\x01\u044f\\x04"') == []

@@ -1,0 +1,93 @@
+"""Frames that are cut over several lines of a log are put together, and no line is lost."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from i7000 import modbus
+from i7000.dissect.finder import Kind
+from i7000.dissect.transcript import Piece, pieces
+from tests.dissect.spellings import BEFORE, WITHOUT_FRAMES
+
+REQUEST = modbus.seal(bytes.fromhex("010400000001"))
+RESPONSE = modbus.seal(bytes.fromhex("0104020b61"))
+
+
+def pieces_of(*lines: str) -> list[Piece]:
+    return list(pieces(enumerate(lines, 1)))
+
+
+def test_an_answer_that_came_in_three_pieces_is_one_frame() -> None:
+    request, response = pieces_of(
+        "send: 0x01 0x04 0x00 0x00 0x00 0x01 0x31 0xca", "recv: 0x01 0x04 0x02", "recv: 0x0b 0x61", "recv: 0x7f 0xe8"
+    )
+
+    assert (request.number, request.last, request.wire) == (1, 1, REQUEST)
+    assert (response.number, response.last, response.kind, response.wire) == (2, 4, Kind.MODBUS, RESPONSE)
+
+
+def test_a_report_in_several_rows_of_a_dump_is_one_frame() -> None:
+    wire = b">+0025.1+0025.3+0024.9+9999.9-0003.2+0101.7       +0025.0\r"
+    rows = [
+        f"{wire[at : at + 16].hex(' ')}    {wire[at : at + 16].decode().replace(chr(13), '.')}"
+        for at in range(0, len(wire), 16)
+    ]
+
+    (report,) = pieces_of(*rows)
+
+    assert (report.number, report.last, report.kind, report.wire) == (1, 4, Kind.DCON, wire)
+
+
+def test_noise_before_a_cut_frame_stays_a_piece_of_its_own() -> None:
+    noise, request = pieces_of("FF FE FD FC", "01 04 00 00", "00 01 31 CA")
+
+    assert (noise.kind, noise.wire) == (Kind.DAMAGED, b"\xff\xfe\xfd\xfc")
+    assert (request.number, request.last, request.wire) == (2, 3, REQUEST)
+
+
+def test_parts_that_never_become_a_frame_are_pieces_of_their_own() -> None:
+    first, second, words = pieces_of("01 04 00 00 00", "00 01 31 CB 00", "port closed")
+
+    assert (first.number, first.kind, second.number, second.kind) == (1, Kind.DAMAGED, 2, Kind.DAMAGED)
+    assert (words.number, words.kind, words.text) == (3, None, "port closed")
+
+
+def test_a_part_too_short_for_a_frame_is_a_line_without_one() -> None:
+    (piece,) = pieces_of("code 12")
+
+    assert (piece.kind, piece.text) == (None, "code 12")
+
+
+def test_two_frames_of_a_line_share_its_text() -> None:
+    command, response = pieces_of("Command: $012    Response: !01050600 ok")
+
+    assert (command.text, response.text) == ("Command: $012", "    Response: !01050600 ok")
+
+
+def test_lines_of_hex_without_a_frame_do_not_pile_up() -> None:
+    found = pieces_of(*["FF " * 16] * 100)
+
+    assert [piece.number for piece in found] == list(range(1, 101))
+
+
+def test_a_blank_line_is_no_piece() -> None:
+    assert pieces_of("", "  \t") == []
+
+
+@given(
+    st.sampled_from((REQUEST, RESPONSE)), st.lists(st.integers(1, 6), max_size=3, unique=True), st.sampled_from(BEFORE)
+)
+def test_a_frame_is_put_together_wherever_it_is_cut(wire: bytes, cuts: list[int], before: str) -> None:
+    ends = [*sorted(cut for cut in cuts if cut < len(wire)), len(wire)]
+    parts = [wire[start:end] for start, end in zip([0, *ends], ends, strict=False)]
+
+    found = pieces_of(*(before + part.hex(" ") for part in parts))
+
+    assert [(piece.number, piece.last, piece.wire) for piece in found] == [(1, len(parts), wire)]
+
+
+@pytest.mark.parametrize("text", [text for text in WITHOUT_FRAMES if text.strip()])
+def test_a_line_without_a_frame_is_a_piece_without_one(text: str) -> None:
+    (piece,) = pieces_of(text)
+
+    assert (piece.kind, piece.wire, piece.text) == (None, b"", text)
