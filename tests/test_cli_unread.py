@@ -101,6 +101,24 @@ def test_lines_that_nobody_reads_hold_up_nothing() -> None:
     assert errors.endswith(b" lines not shown\n")
 
 
+@pytest.mark.parametrize("again", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_second_signal_does_not_cut_the_end_short(again: signal.Signals) -> None:
+    with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
+        assert started.stdout
+        assert started.stderr
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+            asked(host, b"#01\r", SAID, 5_200)
+            started.send_signal(signal.SIGINT)
+            host.settimeout(5)
+            assert host.recv(100) == b""  # The simulation has ended, and waits for whoever reads its lines.
+            started.send_signal(again)
+            code = started.wait(ENOUGH)
+        errors = started.stderr.read()
+
+    assert code == 0
+    assert errors.endswith(b" lines not shown\n")
+
+
 def test_lines_that_were_dropped_are_counted_where_they_would_have_been() -> None:
     with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
         assert started.stdout

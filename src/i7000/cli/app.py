@@ -300,7 +300,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
         tuple[str, ...],
         Parameter(help="What the line does: echo, lumps, drop=0.01 ...", negative="", show_default=False),
     ] = (),
-    seed: Annotated[int, Parameter(help="Of faults and noise: the same one has the same.")] = 0,
+    seed: Annotated[int, Parameter(help="Random seed for faults and noise; the same seed repeats the run.")] = 0,
     eeprom: Annotated[Path | None, Parameter(help="A file for what the modules remember without power.")] = None,
     view: Annotated[
         Literal["live", "lines", "none"] | None,

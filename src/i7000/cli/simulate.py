@@ -160,11 +160,26 @@ def run(simulated: Simulation, printer: Printer) -> int:
 
     Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
     """
-    with _never_held_up(printer, simulated.view) as out:
+    with _handlers_kept(), _never_held_up(printer, simulated.view) as out:
         try:
             return asyncio.run(_run(simulated, printer, out))
         except I7000Error as error:
             raise UsageError(error) from None
+
+
+_ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""The signals that end a simulation: Ctrl-C, and those that come when it is terminated or its terminal hangs up."""
+
+
+@contextmanager
+def _handlers_kept() -> Iterator[None]:
+    """Put back what handled the signals before."""
+    handlers = {number: signal.getsignal(number) for number in _ENDING}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
 
 
 @contextmanager
@@ -187,39 +202,49 @@ def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
 
 async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
-    _end_at_signals(simulator)
-    if simulated.memory is not None:
-        from i7000.simulator.memory import save  # noqa: PLC0415
+    with _ended_by_signals(simulator):
+        if simulated.memory is not None:
+            from i7000.simulator.memory import save  # noqa: PLC0415
 
-        simulator.store = partial(save, simulated.memory)
-        simulator.store([module.eeprom for module in simulated.modules])
-    for address, protocol in _shared(simulator.bus.modules):
-        printer.error(f"several modules have address {address:02X} and speak {protocol.name}: their answers collide")
-    async with AsyncExitStack() as opened:
-        places = await _open(simulated, simulator, opened)
-        for place in places:
-            printer.out.out(place, highlight=False)
-        printer.out.file.flush()
-        if simulated.view == "lines":
-            simulator.observe = partial(_show_lines, printer, out)
-        elif simulated.view == "live":
-            simulator.report = None
-            view = View(simulator.modules, printer.out, places, simulator.notices)
-            simulator.observe = opened.enter_context(view).show
-        await simulator.run()
-    return 0
+            simulator.store = partial(save, simulated.memory)
+            simulator.store([module.eeprom for module in simulated.modules])
+        for address, protocol in _shared(simulator.bus.modules):
+            printer.error(
+                f"several modules have address {address:02X} and speak {protocol.name}: their answers collide"
+            )
+        async with AsyncExitStack() as opened:
+            places = await _open(simulated, simulator, opened)
+            for place in places:
+                printer.out.out(place, highlight=False)
+            printer.out.file.flush()
+            if simulated.view == "lines":
+                simulator.observe = partial(_show_lines, printer, out)
+            elif simulated.view == "live":
+                simulator.report = None
+                view = View(simulator.modules, printer.out, places, simulator.notices)
+                simulator.observe = opened.enter_context(view).show
+            await simulator.run()
+        return 0
 
 
-def _end_at_signals(simulator: Simulator) -> None:
-    """End the simulation at Ctrl-C, or when it is terminated or its terminal hangs up."""
-    names = [signal.SIGINT, signal.SIGTERM]
-    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup has it
-        names.append(signal.SIGHUP)
+@contextmanager
+def _ended_by_signals(simulator: Simulator) -> Iterator[None]:
+    """End the simulation at a signal; once it has ended, ignore others, so that what was shown can still be written."""
+    loop = asyncio.get_running_loop()
+    hung_up = getattr(signal, "SIGHUP", None)
+    numbers = [it for it in _ENDING if it != hung_up or signal.getsignal(it) is not signal.SIG_IGN]  # as nohup has it
     try:
-        for name in names:
-            asyncio.get_running_loop().add_signal_handler(name, simulator.end)
+        for number in numbers:
+            loop.add_signal_handler(number, simulator.end)
     except NotImplementedError:  # Windows: Ctrl-C is an exception there.
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        numbers = []
+    try:
+        yield
+    finally:
+        for number in numbers:
+            loop.remove_signal_handler(number)
+            signal.signal(number, signal.SIG_IGN)
 
 
 def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
