@@ -862,3 +862,15 @@ def test_a_closed_pipe_ends_it_quietly() -> None:
     assert process.stderr.read() == b""
     process.stderr.close()
     assert process.wait() == CLOSED
+
+
+def test_an_argument_that_is_no_text_of_any_encoding_is_shown_escaped(run: Run) -> None:
+    told = run("decode", "\ud800")
+
+    assert (told.code, r"\xed\xa0\x80" in told.out) == (1, True)
+
+
+def test_without_a_standard_error_a_wrong_call_still_has_its_exit_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stderr", None)
+
+    assert main(["decode", "--protocol", "none"]) == 2

@@ -125,7 +125,7 @@ def test_groups_of_profiles_read_damaged_frames_alike(
 def test_meanings_are_in_the_order_of_the_sections() -> None:
     (first, *_, last) = Reader(Known()).meanings(b"!01050600\r")
 
-    assert [type(it.message).__name__ for it in (first, last)] == ["Configuration", "ModuleName"]
+    assert [type(it.message).__name__ for it in (first, last)] == ["Configuration", "ChannelMask"]
     assert first.fit.models == tuple(Model)
 
 

@@ -3,7 +3,8 @@
 To make a hundred classes takes attrs longer than the rest of an import, so an import gives a class only its slots.
 The first call of its constructor, or the first question of attrs about its fields, has attrs make the rest.
 
-Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: all make the same.
+Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: each has attrs
+work on a copy of its own, and all make the same. `__init_subclass__` is called for every copy.
 """
 
 from collections.abc import Callable
@@ -20,7 +21,7 @@ _AWAITED = ("__init__", "__setattr__", "__delattr__", "__setstate__", "__attrs_a
 class _Awaited:
     """An attribute of a class that attrs has not made yet."""
 
-    def __init__(self, plain: type, options: dict[str, Any]) -> None:
+    def __init__(self, plain: dict[str, Any], options: dict[str, Any]) -> None:
         self._plain = plain
         self._options = options
 
@@ -29,7 +30,8 @@ class _Awaited:
         self._name = name
 
     def __get__(self, instance: object, kind: type) -> Any:  # noqa: ANN401 - whatever attrs makes
-        made, own = vars(attrs.frozen(self._plain, **self._options)), vars(self._kind)
+        plain = type(self._kind)(self._kind.__name__, self._kind.__bases__, dict(self._plain))
+        made, own = vars(attrs.frozen(plain, **self._options)), vars(self._kind)
         for name in sorted(made, key=_AWAITED.__contains__):  # what other threads may be waiting for comes last
             if name not in own or isinstance(own[name], _Awaited):
                 setattr(self._kind, name, made[name])
@@ -49,11 +51,12 @@ else:
         """
         if kind is None:
             return lambda kind: frozen(kind, **options)
-        namespace = dict(vars(kind))
+        plain = {**vars(kind), "__qualname__": kind.__qualname__}
         fields = [name for name, annotation in kind.__annotations__.items() if get_origin(annotation) is not ClassVar]
-        slots = [*fields, "__weakref__"] if "__weakref__" in namespace else fields
-        for name in (*fields, "__weakref__", "__dict__"):
-            namespace.pop(name, None)
-        awaited = {name: _Awaited(kind, options) for name in _AWAITED if name not in namespace}
-        namespace |= {"__qualname__": kind.__qualname__, "__slots__": tuple(slots), **awaited}
+        slots = [*fields, "__weakref__"] if "__weakref__" in plain else fields
+        for name in ("__weakref__", "__dict__"):
+            plain.pop(name, None)
+        namespace = {name: value for name, value in plain.items() if name not in fields}
+        awaited = {name: _Awaited(plain, options) for name in _AWAITED if name not in namespace}
+        namespace |= {"__slots__": tuple(slots), **awaited}
         return type(kind)(kind.__name__, kind.__bases__, namespace)

@@ -69,7 +69,7 @@ def test_a_module_hears_a_host_with_its_line_settings_only(settings: dict[str, o
     ("number", "value", "uart"),
     [
         (1, (57600).to_bytes(4), Uart(57600)),
-        (1, b"\xff\xff\xff\xff", Uart(0xFFFFFFFF)),
+        (1, (10**9).to_bytes(4), Uart(10**9)),
         (2, b"\x07", Uart(data_bits=7)),
         (3, b"\x02", Uart(parity="O")),
         (3, b"\x05", Uart(parity="S")),

@@ -236,7 +236,7 @@ def _ended_by_signals(simulator: Simulator) -> Iterator[None]:
     try:
         for number in numbers:
             loop.add_signal_handler(number, simulator.end)
-    except NotImplementedError:  # Windows: Ctrl-C is an exception there.
+    except NotImplementedError:  # pragma: no cover - Windows: Ctrl-C is an exception there; tested in its own process
         signal.signal(signal.SIGINT, signal.default_int_handler)
         numbers = []
     try:

@@ -154,6 +154,7 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
     Errors: `EncodeError` that tells the reason.
     Manual: 2.
 
+    >>> from i7000 import Model
     >>> encode(ReadConfiguration(0x01), Profile(Model.I_7018, checksum=True))
     b'$012B7\r'
     """
@@ -182,6 +183,7 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
         command has the fault of the command that it comes nearest to.
     Manual: 2; E7, E8, E10, E27, E93.
 
+    >>> from i7000 import Model
     >>> decode_command(b"$01A\r", Profile(Model.M_7019R)), decode_command(b"$01A\r", Profile(Model.M_7017))
     (ReadCjcUpdate(address=0x01), ReadAnalogInputsHex(address=0x01))
     """
@@ -224,6 +226,7 @@ def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | 
     Errors: `DecodeError`; with `Fault.ADDRESS` for the answer of another module, where the answer tells.
     Manual: 2; E16, E18, E24.
 
+    >>> from i7000 import Model
     >>> decode_response(b"?01\r", ReadConfiguration(0x01), Profile(Model.I_7018))
     Refused(address=0x01)
     """
@@ -263,6 +266,7 @@ def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # 
 def longest_response(command: AnyCommand, profile: Profile) -> int:
     """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
 
+    >>> from i7000 import Model
     >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
     58
     """
