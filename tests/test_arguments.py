@@ -4,6 +4,7 @@ from collections.abc import Callable
 from inspect import signature
 from typing import Any
 
+import attrs
 import pytest
 
 from i7000 import (
@@ -22,7 +23,7 @@ from i7000 import (
     modbus,
 )
 from i7000.arguments import as_bytes
-from tests.calls import CALLS, LEFT_OUT, Call, surface
+from tests.calls import BASES, CALLS, LEFT_OUT, Call, surface
 
 NUMBERS = (None, True, -1, 300, 10**400, 1.5, float("nan"), float("inf"))
 OTHERS: tuple[Any, ...] = (
@@ -116,6 +117,19 @@ def test_an_optional_argument_can_be_none() -> None:
         modbus.flush(b"", profile=5)  # type: ignore[arg-type]
 
     assert modbus.flush(b"", profile=None) == ()
+
+
+@pytest.mark.parametrize("base", BASES, ids=lambda base: f"{base.__module__}.{base.__name__}")
+def test_a_base_class_of_messages_cannot_be_constructed(base: Any) -> None:
+    arguments = [1] * len(signature(base).parameters) if attrs.has(base) else []
+
+    with pytest.raises(ArgumentError, match=f"{base.__name__} is a base class: construct one of the ") as caught:
+        base(*arguments)
+
+    module = dcon if issubclass(base, dcon.Message) else modbus
+    instead = getattr(module, caught.value.allowed.rpartition(" ")[2])
+    assert issubclass(instead, base)
+    assert instead.section
 
 
 class Unwritable:

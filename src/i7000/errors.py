@@ -116,17 +116,20 @@ def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> Decode
 class ArgumentError(I7000Error, TypeError):
     """An argument of a type that the function does not work on.
 
-    Shape: `argument` (its name), `value` (what was given), `allowed` (the types that it can have).
+    Shape: `argument` (its name), `value` (what was given), `allowed` (the types that it can have); `reason` as in
+        `EncodeError`.
     """
 
-    def __init__(self, argument: str, value: object, allowed: str) -> None:
-        super().__init__(argument, value, allowed)
+    def __init__(self, argument: str, value: object, allowed: str, reason: str = "") -> None:
+        super().__init__(argument, value, allowed, reason)
         self.argument = argument
         self.value = value
         self.allowed = allowed
+        self.reason = reason
 
     def __str__(self) -> str:
-        return f"{self.argument} cannot be {shown(self.value)} ({type(self.value).__name__}): {self.allowed}"
+        reason = self.reason or f"{self.argument} cannot be {shown(self.value)} ({type(self.value).__name__})"
+        return f"{reason}: {self.allowed}"
 
 
 class StateError(I7000Error):

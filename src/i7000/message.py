@@ -1,6 +1,6 @@
 """What every message of both protocols is: a frozen value whose class states its wire form once.
 
-Laws: a message that can be constructed has a wire form; whether a certain model takes it is what `check` knows.
+Laws: a message that can be constructed has a wire form, so a base class cannot be; whether a certain model takes it is what `check` knows.
 """
 
 from collections.abc import Callable
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args
 from attrs import fields
 
 import i7000.frozen
+from i7000.errors import ArgumentError
 from i7000.profile import Profile
 
 __all__ = ["CompiledOnce", "Message", "frozen", "type_of_answer"]
@@ -45,9 +46,20 @@ class Message:
     section: ClassVar[str]
     title: ClassVar[str]
     layout: ClassVar[Any]
+    _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
+    """What to construct where a class is only the base of others, which has no section."""
+
+    def __init__(self, *_: object, **__: object) -> None:  # of a base class without fields; attrs makes that of others
+        raise self._is_base()
 
     def __attrs_post_init__(self) -> None:
+        if not hasattr(self, "section"):
+            raise self._is_base()
         self.layout.check(self)
+
+    @classmethod
+    def _is_base(cls) -> ArgumentError:
+        return ArgumentError("message", cls, f"construct {cls._instead}", f"{cls.__name__} is a base class")
 
     def _values(self) -> dict[str, Any]:
         return {it.name: getattr(self, it.name) for it in fields(type(self))}  # type: ignore[arg-type] # of an attrs class

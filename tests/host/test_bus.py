@@ -107,12 +107,17 @@ def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing(
         send(idle(), dcon.ReadCjcUpdate(0x01), Profile(Model.M_7018), 0.0)
 
 
-@pytest.mark.parametrize(
-    "name", ["line", "policy", "echo", "pending", "last", "rest", "heard_at", "quiet_until", "clock"]
-)
+@pytest.mark.parametrize("name", ["line", "policy", "echo", "pending", "last", "rest"])
 def test_a_line_has_no_field_of_another_type(name: str) -> None:
     with pytest.raises(EncodeError, match=rf"{name} cannot be 'text': an instance of \w+"):
         Bus(**{name: "text"})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["heard_at", "quiet_until", "clock"])
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), float("-inf"), 10**400, True, "5"])
+def test_a_time_of_a_bus_that_is_not_finite_is_refused(name: str, value: Any) -> None:
+    with pytest.raises(EncodeError, match=f"{name} cannot be .*: a finite number of seconds"):
+        Bus(**{name: value})
 
 
 @pytest.mark.parametrize("second", [READ, COIL, dcon.HostOk()])

@@ -31,6 +31,8 @@ class Response(Message):
 
     __slots__ = ()
 
+    _instead = "one of the responses, such as AnalogInputs"
+
 
 R = TypeVar("R", bound=Response)
 """The response of a command."""
@@ -41,12 +43,15 @@ class Broadcast(Message):
 
     __slots__ = ()
 
+    _instead = "one of the broadcasts, such as HostOk"
+
 
 @message.frozen
 class Command(Message, Generic[R]):
     """A command to one module, and the type of its valid response."""
 
     response: ClassVar[type[Response]]
+    _instead = "one of the commands, such as ReadConfiguration"
 
     address: Address
 

@@ -41,6 +41,8 @@ def readings(
         check_type("profile", profile, Profile)
     if not isinstance(response, _REPORTS):
         check_type("response", response, *_REPORTS)  # type: ignore[unreachable] # with types
+    if lenient is not False:
+        check_type("lenient", lenient, bool)
     values = response.values
     in_hex = isinstance(response, AnalogInputsHex)
     found = None if lenient or in_hex else decode_numbers(values, profile)
@@ -59,6 +61,7 @@ def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: b
     Manual: 1.11, A.5; E121.
     """
     check_type("response", response, AnalogInput)
+    check_type("lenient", lenient, bool)
     types = _types_of(channel, profile)
     if not types:
         raise _unknown_types(response.value, profile)

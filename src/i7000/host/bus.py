@@ -17,7 +17,7 @@ from typing import Any, Generic, Never, TypeVar, overload
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
-from i7000.arguments import as_bytes, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_type
 from i7000.errors import DecodeError, EncodeError, Noise, StateError
 from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
@@ -81,7 +81,7 @@ class Bus(Generic[R]):
     """A line with modules, R being the response that is waited for; a new one is ``Bus[Any]()``.
 
     Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the rest is what happened.
-    Errors: `EncodeError` for a baud rate that is not defined.
+    Errors: `EncodeError` for a field of another type, a baud rate that is not defined, and a time that is not finite.
     """
 
     line: LineSettings = field(factory=LineSettings)
@@ -96,11 +96,11 @@ class Bus(Generic[R]):
     """What was sent last: whose answer may still come."""
     rest: bytes = b""
     """What was heard and may still become a frame."""
-    heard_at: float = -inf
+    heard_at: float = -LARGEST_FLOAT
     """When the last character ended that was on the line, sent or heard."""
-    quiet_until: float = -inf
+    quiet_until: float = -LARGEST_FLOAT
     """The end of the pause that is owed."""
-    clock: float = field(default=-inf, eq=False, repr=False)
+    clock: float = field(default=-LARGEST_FLOAT, eq=False, repr=False)
     """The time of the last call, which makes no difference to what it is."""
 
     def __attrs_post_init__(self) -> None:
@@ -108,6 +108,9 @@ class Bus(Generic[R]):
             if not isinstance(getattr(self, name), kinds):
                 allowed = " or ".join(kind.__name__ for kind in kinds)
                 raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
+        for name in _TIMES:
+            if not is_number(getattr(self, name)):
+                raise EncodeError(name, getattr(self, name), "a finite number of seconds", "")
         if not isinstance(self.line.baud_rate, BaudRate):
             raise EncodeError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
 
@@ -129,17 +132,16 @@ _KINDS: dict[str, tuple[type, ...]] = {
     "pending": (Pending, NoneType),
     "last": (Exchange, NoneType),
     "rest": (bytes,),
-    "heard_at": (float, int),
-    "quiet_until": (float, int),
-    "clock": (float, int),
 }
-"""What each field of `Bus` can be."""
+"""What each field of `Bus` can be that is not a time."""
+_TIMES = ("heard_at", "quiet_until", "clock")
+_FIELDS = (*_KINDS, *_TIMES)
 
 
 def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - fields of `Bus`
     """Return a changed copy; what happens to a bus is not looked at again, as `evolve` would."""
     copy = object.__new__(Bus)
-    for name in _KINDS:
+    for name in _FIELDS:
         object.__setattr__(copy, name, changes[name] if name in changes else getattr(bus, name))
     return copy
 

@@ -45,11 +45,15 @@ class Message(message.Message):
     pdu: ClassVar[str]
     layout: ClassVar[Layout] = message.CompiledOnce(Layout.compile)  # type: ignore[assignment] # until the first use
 
+    _instead = "one of the messages, such as ReadInputRegisters"
+
     address: Address
 
 
 class Response(Message):
     """What a module answers."""
+
+    _instead = "one of the responses, such as InputRegisters"
 
 
 R = TypeVar("R", bound=Response)
@@ -64,6 +68,7 @@ class Request(Message, Generic[R]):
     sub_function: ClassVar[int | None]
     broadcast: ClassVar[bool] = False
     """Whether it can be sent to all modules."""
+    _instead = "one of the requests, such as ReadInputRegisters"
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -79,6 +84,8 @@ class SettingResult(Response):
 
     Shape: a `result` of 0 says that it was; what others say is not documented (E90).
     """
+
+    _instead = "one of the results, such as ModuleAddressResult"
 
     result: Byte
 
