@@ -31,8 +31,6 @@ _LINE_ENDS = ("", "\n", "\r\n")
 
 _LEADS = "%#$~@!>?"
 _ONE_END = (*_LINE_ENDS, "\r")
-_MARKS = ("\r", "\n", "\\", "CR", "cr")
-"""What all other ends have in them, and hardly any line."""
 _PREFIXES = re.compile(
     rf"""(?>
     [\s\ufeff'"]+
@@ -64,7 +62,7 @@ def numbered_pieces(lines: Iterable[tuple[int, bytes]]) -> Iterator[Line]:
         text = line.decode("utf-8", "surrogateescape")
         body = text.rstrip("\r\n")
         end = text[len(body) :]
-        if end in _ONE_END and not any(mark in body for mark in _MARKS):  # nearly always
+        if end in _ONE_END and not _may_end(body):  # nearly always
             if body and not body.isspace():
                 yield Line(number, body if body.isascii() else shown(body), _frame(body, ended=end == "\r"))
             continue
@@ -72,6 +70,11 @@ def numbered_pieces(lines: Iterable[tuple[int, bytes]]) -> Iterator[Line]:
             body, end = piece.groups()
             if (body + end).strip():
                 yield Line(number, shown(body + end), _frame(body, ended=end not in _LINE_ENDS))
+
+
+def _may_end(text: str) -> bool:
+    """Whether a text can have an end in it: all of them have one of these."""
+    return "\r" in text or "\n" in text or "\\" in text or "CR" in text or "cr" in text
 
 
 def shown(text: str) -> str:

@@ -102,7 +102,7 @@ def _reading(reading: ChannelReading) -> Record:
         "channel": channel,
         "text": text,
         "status": status and status.value,
-        "type_code": None if type_code is None else type_code.value,
+        "type_code": None if type_code is None else int(type_code),
         "value": value,
         "unit": unit,
     }

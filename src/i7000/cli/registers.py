@@ -47,16 +47,17 @@ class Cell(NamedTuple):
 
 
 class _Place(NamedTuple):
-    """One thing that a request touches, whatever is sent of it."""
+    """What some items that a message touches are, whatever is sent of them: one thing, or the readings of channels."""
 
     at: int
-    """Its first item, of those that are touched."""
+    """The first of the items, counted from the first that is touched."""
     used: int
-    """How many of them."""
+    """How many items they are."""
     row: Register
-    """Where it is; a row without a name where the map has none."""
+    """Where they are; a row without a name where the map has none."""
     channel: int | None
-    empty: Cell
+    """The first channel."""
+    empty: tuple[Cell, ...]
     """What is told if nothing is sent."""
     part: str
     """Which word of a longer number it is, if that is all there is."""
@@ -77,7 +78,7 @@ def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile:
         if values:
             yield from _told(profile, it, values[it.at : it.at + it.used])
         else:
-            yield it.empty
+            yield from it.empty
 
 
 def _values(message: modbus.Message) -> tuple[int, ...]:
@@ -94,54 +95,77 @@ def _map(profile: Profile) -> RegisterMap:
 
 @lru_cache(maxsize=32)
 def _places(profile: Profile | None, area: Area, start: int, count: int) -> tuple[_Place, ...]:
-    """List the things that `count` items from `start` on are."""
+    """List what `count` items from `start` on are."""
     rows = [] if profile is None else [row for row in _map(profile) if row.area is area]
     found = []
     at = 0
     while at < count:
         row = next((row for row in rows if row.address <= start + at < row.address + row.count), None)
-        place = _place(row or Register("", area, start + at), start, at, count, mapped=profile is not None)
+        place = _place(profile, row or Register("", area, start + at), start + at, at, count - at)
         found.append(place)
         at += place.used
     return tuple(found)
 
 
-def _place(row: Register, start: int, at: int, count: int, *, mapped: bool) -> _Place:
-    offset = start + at - row.address
-    used = row.count if row.kind in _LONG and not offset and at + row.count <= count else 1
+def _place(profile: Profile | None, row: Register, address: int, at: int, left: int) -> _Place:
+    """Choose what is told together of the `left` items from `address` on."""
+    offset = address - row.address
+    used = told = 1
+    if row.kind in _LONG and not offset and row.count <= left:
+        used = row.count
+    elif row.kind is Kind.READING and profile is not None:
+        used = told = max(1, min(left, len(profile.type_codes) - offset))
     channel = offset if row.count > 1 and row.kind not in _LONG else None
-    words = None if row.name or not mapped else "not in the map"
-    number = Register("", row.area, start + at).number
-    empty = Cell(number, row.name or None, channel, None, row.unit, words)
+    words = None if row.name or profile is None else "not in the map"
+    empty = tuple(
+        Cell(
+            Register("", row.area, address + more).number,
+            row.name or None,
+            None if channel is None else channel + more,
+            None,
+            row.unit,
+            words,
+        )
+        for more in range(told)
+    )
     part = f"word {offset + 1} of {row.count}" if row.kind in _LONG and used == 1 else ""
     return _Place(at, used, row, channel, empty, part)
 
 
 def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
-    row, channel, empty = place.row, place.channel, place.empty
-    number, name = empty.number, empty.name
-    raw = _raw(row, sent[0])
+    row, channel = place.row, place.channel
+    number, name, _, _, _, words, *_ = empty = place.empty[0]
     if profile is None or not name or place.part:
-        remark = place.part or empty.text
+        raw, remark = _raw(row, sent[0]), place.part or words
         yield Cell(number, name, channel, sent[0], None, f"{raw}, {remark}" if remark else raw)
-        return
-    try:
-        if row.kind is Kind.READING:
-            (reading,) = modbus.readings(sent, profile, channel=channel or 0)
-            type_code = profile.type_codes[channel or 0]
-            yield Cell(number, name, channel, reading.value, reading.unit, raw, reading, type_code)
-            return
-        channels = None if channel is None else range(channel, channel + 1)
-        value = _map(profile).decode(row.name, sent, channels=channels)
-    except DecodeError:
-        text = raw if row.kind is Kind.READING else f"{raw}, not defined"
-        yield Cell(number, name, channel, sent[0], None, text)
-        return
-    value = value if channel is None else value[0]
-    if row.kind is Kind.RECORD:
-        yield from _log(empty, value)
+    elif row.kind is Kind.READING:
+        yield from _readings(profile, place, sent)
     else:
-        yield Cell(number, name, channel, _plain(value), row.unit, _words(row, value))
+        channels = None if channel is None else range(channel, channel + 1)
+        try:
+            value = _map(profile).decode(row.name, sent, channels=channels)
+        except DecodeError:
+            yield Cell(number, name, channel, sent[0], None, f"{_raw(row, sent[0])}, not defined")
+            return
+        value = value if channel is None else value[0]
+        if row.kind is Kind.RECORD:
+            yield from _log(empty, value)
+        else:
+            yield Cell(number, name, channel, _plain(value), row.unit, _words(row, value))
+
+
+def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
+    """Tell the readings of channels; a channel that the connecting mode does not have has no type, and none."""
+    first = place.channel or 0
+    types = profile.type_codes[first : first + len(sent)]
+    if not types:
+        (empty,) = place.empty
+        yield Cell(empty.number, empty.name, empty.channel, sent[0], None, f"{sent[0]:04X}")
+        return
+    found = modbus.readings(sent, profile, channel=first)
+    for empty, word, reading, type_code in zip(place.empty, sent, found, types, strict=True):
+        value, unit, _ = reading
+        yield Cell(empty.number, empty.name, empty.channel, value, unit, f"{word:04X}", reading, type_code)
 
 
 def _raw(row: Register, item: int) -> str:
