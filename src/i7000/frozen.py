@@ -4,6 +4,7 @@ To make a hundred classes takes attrs longer than the rest of an import, so an i
 The first call of its constructor, or the first question of attrs about its fields, has attrs make the rest.
 
 Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: all make the same.
+`__init_subclass__` may run more than once for a class: do there only what can be repeated.
 """
 
 from collections.abc import Callable
