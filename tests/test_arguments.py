@@ -94,6 +94,14 @@ def test_a_subclass_of_bytes_is_taken_as_plain_bytes() -> None:
     assert type(as_bytes("frame", Named(b"$012\r"))) is bytes
 
 
+def test_a_subclass_of_bytes_cannot_say_what_its_bytes_are() -> None:
+    class Odd(bytes):
+        def __bytes__(self) -> bytes:
+            raise RuntimeError
+
+    assert as_bytes("frame", Odd(b"$012\r")) == b"$012\r"
+
+
 def test_a_memoryview_that_was_released_is_refused() -> None:
     view = memoryview(b"$012\r")
     view.release()

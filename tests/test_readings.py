@@ -1,6 +1,7 @@
 """What readings refuse, and where two meanings share one field."""
 
 import math
+import re
 
 import pytest
 
@@ -191,22 +192,40 @@ def test_a_number_that_is_no_word_is_refused(word: int) -> None:
 @pytest.mark.parametrize(
     ("field", "code", "data_format", "allowed"),
     [
-        ("+0152.4", TypeCode.V_10, DataFormat.ENGINEERING, "-11.000..+11.000, as type 08 (-10..10 V) has it"),
-        ("+11.001", TypeCode.V_10, DataFormat.ENGINEERING, "-11.000..+11.000, as type 08 (-10..10 V) has it"),
-        ("+025.12", TypeCode.K, DataFormat.ENGINEERING, "-0407.2..+1509.2, as type 0F (K) has it"),
-        ("+112.51", TypeCode.MA_4_20, DataFormat.PERCENT, "-012.50..+112.50, as type 07 (4..20 mA) has it"),
-        ("-110.01", TypeCode.V_10, DataFormat.PERCENT, "-110.00..+110.00, as type 08 (-10..10 V) has it"),
-        ("9000", TypeCode.K, DataFormat.HEX, "-407.2..1509.2 degC, as type 0F (K) has it"),
+        ("+0152.4", TypeCode.V_10, DataFormat.ENGINEERING, "type 08 (-10..10 V) writes -11.000..+11.000"),
+        ("+11.001", TypeCode.V_10, DataFormat.ENGINEERING, "type 08 (-10..10 V) writes -11.000..+11.000"),
+        ("+025.12", TypeCode.K, DataFormat.ENGINEERING, "type 0F (K) writes -0407.2..+1509.2"),
+        ("+112.51", TypeCode.MA_4_20, DataFormat.PERCENT, "type 07 (4..20 mA) writes -012.50..+112.50"),
+        ("-110.01", TypeCode.V_10, DataFormat.PERCENT, "type 08 (-10..10 V) writes -110.00..+110.00"),
+        ("9000", TypeCode.K, DataFormat.HEX, "type 0F (K) writes -407.2..1509.2 degC"),
     ],
 )
 def test_a_number_that_no_module_of_the_type_writes_takes_leniency(
     field: str, code: TypeCode, data_format: DataFormat, allowed: str
 ) -> None:
+    allowed = f"{allowed}; pass lenient=True for a module that differs"
+
     with pytest.raises(DecodeError) as caught:
         decode_field(field, code, data_format)
 
     assert (caught.value.fault, caught.value.wire, caught.value.allowed) == (Fault.NUMBER, field.encode(), allowed)
     assert decode_field(field, code, data_format, lenient=True).status is Status.OK
+
+
+@pytest.mark.parametrize("data_format", [DataFormat.ENGINEERING, DataFormat.PERCENT])
+@pytest.mark.parametrize("code", TypeCode, ids=lambda code: f"{code:02X}")
+def test_the_ends_that_an_error_names_are_read_and_nothing_beyond(code: TypeCode, data_format: DataFormat) -> None:
+    decimals = code.decimals if data_format is DataFormat.ENGINEERING else 2
+    step = 10.0**-decimals
+    with pytest.raises(DecodeError) as caught:
+        decode_field(f"{99_998 * step:+07.{decimals}f}", code, data_format)
+    ends = re.findall(r"[+-][0-9.]{6}", caught.value.allowed.partition("writes ")[2].replace("..", " "))
+
+    assert len(ends) == 2
+    for end, beyond in zip(ends, (-step, step), strict=True):
+        assert decode_field(end, code, data_format).status is Status.OK
+        with pytest.raises(DecodeError):
+            decode_field(f"{float(end) + beyond:+07.{decimals}f}", code, data_format)
 
 
 @pytest.mark.parametrize("code", TypeCode, ids=lambda code: f"{code:02X}")

@@ -29,7 +29,7 @@ def as_bytes(name: str, value: object) -> bytes:
     if not isinstance(value, _BYTES_LIKE_KINDS):
         raise ArgumentError(name, value, _BYTES_LIKE)
     try:
-        return bytes(value)
+        return memoryview(value).tobytes()
     except ValueError:
         raise ArgumentError(name, value, f"{_BYTES_LIKE}, not released") from None
 

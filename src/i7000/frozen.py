@@ -4,7 +4,7 @@ To make a hundred classes takes attrs longer than the rest of an import, so an i
 The first call of its constructor, or the first question of attrs about its fields, has attrs make the rest.
 
 Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: each has attrs
-work on a copy of its own, and all make the same. `__init_subclass__` is called for every copy.
+work on a copy of its own, and all make the same. `__init_subclass__` is called for every copy: it must be repeatable.
 """
 
 from collections.abc import Callable

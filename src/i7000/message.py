@@ -1,6 +1,7 @@
 """What every message of both protocols is: a frozen value whose class states its wire form once.
 
-Laws: a message that can be constructed has a wire form, so a base class cannot be; whether a certain model takes it is what `check` knows.
+Laws: a message that can be constructed has a wire form, so a base class cannot be; whether a certain model takes it is
+what `check` knows.
 """
 
 from collections.abc import Callable

@@ -1,12 +1,14 @@
 """What the fields of a report mean: text, percent, hex and Modbus words <-> `Reading` (manual 1.11, 3.5, A.5).
 
 Laws: a field decodes to the double nearest to what was sent. What no module of the type writes is refused, unless the
-caller is lenient: other decimals, or a value further than a tenth of full scale beyond the span (E121). A word decodes
-whatever its value is. A reading is encoded to the nearest count of its format, and refused where its type and format
-cannot say it; nothing is clamped. Sentinels are compared as text or word before any number is made of them.
+caller is lenient: other decimals, or a value further than a tenth of full scale beyond the span (E121), also in DCON
+hex. A register word decodes whatever its value is. A reading is encoded to the nearest count of its format, and refused
+where its type and format cannot say it; nothing is clamped. Sentinels are compared as text or word before any number is
+made of them.
 """
 
 from itertools import repeat
+from math import ceil, floor
 from types import MethodType
 from typing import NamedTuple
 
@@ -92,6 +94,10 @@ def _is_written(field: str, value: float, type_code: TypeCode, data_format: Data
     return pointed and type_code.lowest <= value <= type_code.highest
 
 
+_NOISE = 6
+"""Decimals after which a product of floats is noise."""
+
+
 def _written(type_code: TypeCode, data_format: DataFormat) -> str:
     """What a module writes with this type, for messages."""
     low, high, unit = type_code.lowest, type_code.highest, type_code.unit
@@ -99,11 +105,13 @@ def _written(type_code: TypeCode, data_format: DataFormat) -> str:
         ends = f"{low:g}..{high:g} {unit}"
     else:
         if data_format is DataFormat.PERCENT:
-            low, high = _percent(low, type_code), _percent(high, type_code)
+            low = ceil(round(_percent(low, type_code) * 100, _NOISE)) / 100
+            high = floor(round(_percent(high, type_code) * 100, _NOISE)) / 100
         form, _, _ = _TEXTS[data_format, type_code]
         ends = f"{form}..{form}" % (low, high)
     span = f"{type_code.minimum:g}..{type_code.maximum:g} {unit}"
-    return f"{ends}, as type {type_code:02X} ({type_code.thermocouple or span}) has it"
+    writes = f"type {type_code:02X} ({type_code.thermocouple or span}) writes {ends}"
+    return f"{writes}; pass lenient=True for a module that differs"
 
 
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:

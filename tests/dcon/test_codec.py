@@ -301,7 +301,9 @@ def test_a_number_of_a_model_is_a_name(model: Model) -> None:
 
 @pytest.mark.parametrize("name", ["0506", "A2.0", "+0010"])
 def test_a_name_that_could_not_be_read_back_is_not_sent_and_not_taken(name: str) -> None:
-    with pytest.raises(EncodeError, match="a name that is the text of no other answer, manual"):
+    with pytest.raises(
+        EncodeError, match=r"not the text of another answer \(2, 4 or 6 hex digits, a version, \.\.\.\), manual"
+    ):
         dcon.encode(dcon.SetModuleName(0x01, name), I_7017)
 
     assert dcon.decode_command(f"~01O{name}\r".encode(), I_7017) == dcon.SetModuleName(0x01, name)

@@ -1,6 +1,7 @@
 """What modules remember: from the factory, and what none can have stored."""
 
 import copy
+import math
 import pickle
 from collections.abc import Callable
 from types import FunctionType, ModuleType
@@ -100,6 +101,26 @@ def test_the_newest_firmware_has_everything() -> None:
 def test_what_no_module_can_have_stored_is_refused(model: Model, changes: dict[str, Any]) -> None:
     with pytest.raises(EncodeError):
         evolve(factory(model), **changes)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        *[(name, value) for name in ("fed_at", "soft_init_until") for value in (math.nan, math.inf, True)],
+        ("held_cold_junction", math.nan),
+        *[("soft_init_timeout", value) for value in (-5, 256, True)],
+    ],
+)
+def test_what_no_module_can_hold_in_its_ram_is_refused(name: str, value: Any) -> None:
+    with pytest.raises(EncodeError, match=f"{name} cannot be"):
+        evolve(power_on(factory(Model.M_7019R), now=0.0).ram, **{name: value})
+
+
+@pytest.mark.parametrize("name", ["clock_offset", "next_at"])
+@pytest.mark.parametrize("value", [math.nan, math.inf, "x", True])
+def test_a_log_has_no_time_that_is_not_finite(name: str, value: Any) -> None:
+    with pytest.raises(EncodeError, match=f"{name} cannot be .*: a finite number of seconds"):
+        Log(**{name: value})
 
 
 def test_a_state_is_frozen_and_keeps_its_profile() -> None:

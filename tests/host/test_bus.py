@@ -120,11 +120,16 @@ def test_a_time_of_a_bus_that_is_not_finite_is_refused(name: str, value: Any) ->
         Bus(**{name: value})
 
 
+def test_an_open_broadcast_is_named_in_the_error() -> None:
+    with pytest.raises(StateError, match=r"\(HostOk to all, due in 0\.\d\d s\): call .* until it ends"):
+        send(ask(idle(), dcon.HostOk()), READ, M7019, 0.0)
+
+
 @pytest.mark.parametrize("second", [READ, COIL, dcon.HostOk()])
 def test_a_second_request_is_refused_while_one_is_open(second: Any) -> None:
     bus = ask(idle(), READ)
 
-    with pytest.raises(StateError, match=r"a request is still open \(ReadChannelMask\(address=0x01\), due in 0\.0"):
+    with pytest.raises(StateError, match=r"a request is still open \(ReadChannelMask to 01, due in 0\."):
         send(bus, second, M7019, 0.1)
 
 

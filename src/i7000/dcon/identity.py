@@ -107,7 +107,9 @@ class SetModuleName(Command[Acknowledged]):
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
         """Refuse a name that is the text of another answer."""
         if not is_name(self.name):
-            raise EncodeError("name", self.name, "a name that is the text of no other answer", self.section)
+            raise EncodeError(
+                "name", self.name, "not the text of another answer (2, 4 or 6 hex digits, a version, ...)", self.section
+            )
 
 
 @frozen

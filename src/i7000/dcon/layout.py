@@ -232,7 +232,15 @@ Offset = Annotated[int, _offset("SNNNN")]
 OffsetData = Annotated[int, _offset("(Data)")]
 Temperature = Annotated[float, _temperature("(Data)")]
 Version = Annotated[str, _text("(Data)", (4, 5), "a letter, a digit, a point, one or two digits", is_version)]
-Name = Annotated[str, _text("(Name)", _NAME_LENGTHS, f"{_NAME}; the text of no other answer", is_name)]
+Name = Annotated[
+    str,
+    _text(
+        "(Name)",
+        _NAME_LENGTHS,
+        f"{_NAME}; not the text of another answer (2, 4 or 6 hex digits, a version, ...)",
+        is_name,
+    ),
+]
 NewName = Annotated[str, _text("(Name)", _NAME_LENGTHS, _NAME)]
 Values = Annotated[tuple[str, ...], _values("(Data)")]
 HexValues = Annotated[tuple[str, ...], _values("(Data)", DataFormat.HEX)]

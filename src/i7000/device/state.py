@@ -253,6 +253,12 @@ class Ram:
                 raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
         if not is_int(self.address, 0, 0xFF):
             raise EncodeError("address", self.address, "00..FF", "2")
+        for name in _TIMES:
+            value = getattr(self, name)
+            if value is not None and not is_number(value):
+                raise EncodeError(name, value, "a finite number", "")
+        if not is_int(self.soft_init_timeout, 0, 0xFF):
+            raise EncodeError("soft_init_timeout", self.soft_init_timeout, "00..FF", "2.34")
         if not all(isinstance(it, tuple) and tuple(map(type, it)) == (TypeCode, Reading) for it in self.sampled or ()):
             raise EncodeError("sampled", self.sampled, "type code and reading of each channel", "2.2")
 
@@ -265,6 +271,8 @@ _KEPT: dict[str, tuple[type, ...]] = {
     "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
 }  # fmt: skip
 """What each field of `Ram` can be."""
+_TIMES = ("fed_at", "soft_init_until", "held_cold_junction")
+"""The fields of `Ram` that must be finite."""
 
 
 # --- a module with power ----------------------------------------------------------------------------------------------

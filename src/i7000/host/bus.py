@@ -181,8 +181,10 @@ def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tu
 
 
 def _still_open(request: Pending[Any], now: float) -> StateError:
-    what = f"{request.exchange.command!r}, due in {max(0.0, request.due - now):.3f} s"
-    return StateError(f"a request is still open ({what}): call receive() or wake() until it has its outcome")
+    command = request.exchange.command
+    to = "all" if isinstance(command, dcon.Broadcast) else f"{command.address:02X}"
+    what = f"{type(command).__name__} to {to}, due in {max(0.0, request.due - now):.2f} s"
+    return StateError(f"a request is still open ({what}): call receive() or wake() until it ends")
 
 
 def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
