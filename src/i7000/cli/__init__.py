@@ -1,10 +1,10 @@
 """The command line ``i7000``: what frames of a log mean, frames to send, what a model can do (extra ``cli``).
 
-Parts, from the outside: `app` has the commands and their options; `text` prints; `log` and `hex_lines` find the frames
-in lines; `dcon` and `rtu` tell what they can mean, `records` and `rtu_records` make records of that, `registers` names
-what Modbus messages touch; `message` makes messages of ``field=value``; `simulate` runs a simulation, `simulated` reads
-what it is of, `traffic` and `view` show what goes on in it, `outlet` writes that without waiting; `words` says values
-for people.
+Parts, from the outside: `app` has the commands and their options; `text` prints; `source` reads lines as they arrive,
+`log` and `hex_lines` find the frames in them; `reader` and `rtu` find what they can mean to those who know what `dcon`
+holds, `records` and `rtu_records` make records of that, `registers` names what Modbus messages touch; `message` makes
+messages of ``field=value``; `simulate` runs a simulation, `simulated` reads what it is of, `traffic` and `view` show what
+goes on in it, `outlet` writes that without waiting; `words` says values for people.
 Laws: what is put in never raises; nothing that was put in is left out of what comes out.
 """
 
