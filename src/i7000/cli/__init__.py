@@ -3,8 +3,8 @@
 Parts, from the outside: `app` has the commands and their options; `text` prints; `source` reads lines as they arrive,
 `log` and `hex_lines` find the frames in them; `reader` and `rtu` find what they can mean to those who know what `dcon`
 holds, `records` and `rtu_records` make records of that, `registers` names what Modbus messages touch; `message` makes
-messages of ``field=value``; `simulate` runs a simulation, `simulated` reads what it is of, `traffic` and `view` show what
-goes on in it, `outlet` writes that without waiting; `words` says values for people.
+messages of ``field=value``; `simulate` runs a simulation, `simulated` reads what it is of, `traffic` and `view` show
+what goes on in it, `outlet` writes that without waiting; `words` says values for people.
 Laws: what is put in never raises; nothing that was put in is left out of what comes out.
 """
 
