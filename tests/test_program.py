@@ -54,7 +54,10 @@ sys.exit(i7000_cli.main())
 @pytest.mark.parametrize("count", [1, *Random(7000).sample(range(2, 100), 3)])
 def test_ctrl_c_while_importing_ends_it_without_a_word(command: tuple[str, ...], count: int) -> None:
     ended = subprocess.run(  # noqa: S603 - ourselves
-        [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, str(count), *command], capture_output=True, check=False
+        [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, str(count), *command],
+        capture_output=True,
+        check=False,
+        timeout=60,
     )
 
     assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, b"", b"")
