@@ -97,7 +97,7 @@ def decode(
     json: _Json = False,
     module: Module = _UNKNOWN,
 ) -> int:
-    r"""Tell what frames mean: those given, or those of a log.
+    r"""Decode frames: those given, or those of a log.
 
     A DCON frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final
     `0d`. Quote it: the shell knows `$`, `#` and `>` too; and put `--` before frames of which one begins with `->`. A

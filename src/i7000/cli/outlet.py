@@ -146,7 +146,7 @@ def _opened(file: IO[str], encoding: str) -> tuple[int | None, Callable[[str], o
 
 
 def _let_go_on(descriptor: int) -> None:
-    """Let a terminal that was stopped go on."""
+    """Resume a terminal that was stopped."""
     try:
         import termios  # noqa: PLC0415 - POSIX only
     except ModuleNotFoundError:

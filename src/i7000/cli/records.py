@@ -121,7 +121,7 @@ class _Told(NamedTuple):
 
 
 def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
-    """Tell what the frames of a log mean, responses together with the commands before them."""
+    """Yield a record for each frame of a log; a response is decoded with the command before it."""
     reader = Reader(known)
 
     @lru_cache(maxsize=_REMEMBERED)
@@ -202,7 +202,7 @@ def _alone(frame: bytes, reader: Reader) -> tuple[Meaning, ...]:
 
 
 def explain(message: dcon.Message, name: str, value: Any) -> str:  # noqa: ANN401
-    """Say the value of a field in words."""
+    """Return the value of a field in words."""
     special = _SPECIAL.get((type(message), name))
     if special is not None:
         return special(value)

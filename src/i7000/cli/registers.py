@@ -64,7 +64,7 @@ class _Place(NamedTuple):
 
 
 def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile: Profile | None) -> Iterator[Cell]:
-    """Tell the registers that a message touches, by name if the profile is known.
+    """Yield the registers that a message touches, by name if the profile is known.
 
     Special: a response without its request does not tell which they are.
     """
@@ -155,7 +155,7 @@ def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iter
 
 
 def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
-    """Tell the readings of channels; a channel that the connecting mode does not have has no type, and none."""
+    """Yield the readings of channels; a channel that the connecting mode lacks has no type and no reading."""
     first = place.channel or 0
     types = profile.type_codes[first : first + len(sent)]
     if not types:
@@ -173,7 +173,7 @@ def _raw(row: Register, item: int) -> str:
 
 
 def _log(empty: Cell, records: tuple[modbus.LogRecord, ...]) -> Iterator[Cell]:
-    """Tell the records of the data logger."""
+    """Yield the records of the data logger."""
     for index, record in enumerate(records):
         texts = (f"{it.value:.7g}" if it.value is not None else it.status.value for it in record.readings)
         text = f"record {index}, {record.time} s: {' '.join(texts)} {record.readings[0].unit}"

@@ -107,7 +107,7 @@ class Listener:
         """Whether the adapter sends back what it is given."""
 
     def hear(self, line: int, frame: bytes) -> Heard:
-        """Tell what a frame means after those that were heard before it.
+        """Return what a frame means after those that were heard before it.
 
         Special: what is the same as the request before it is its response where it can be, unless the line is known to
             echo; a line is known to echo when a request came twice that cannot be its own response.
