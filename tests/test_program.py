@@ -23,14 +23,6 @@ PROGRAM = (sys.executable, "-m", "i7000_cli")
 MODELS = ("simulate", "--model", "I-7018")
 
 
-@pytest.fixture(autouse=True)
-def ctrl_c() -> Iterator[None]:
-    """Ctrl-C as it was, whatever a test has made of it."""
-    before = signal.getsignal(signal.SIGINT)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 # --- Ctrl-C -----------------------------------------------------------------------------------------------------------
 
 INTERRUPTED_WHILE_IMPORTING = """\
