@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from i7000 import Fault, Protocol
-from i7000.cli.simulate import read_modules
+from i7000.cli.simulation import read_modules
 from tests.terminal import Run
 
 ROOT = Path(__file__).parents[1]

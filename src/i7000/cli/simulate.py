@@ -1,280 +1,86 @@
-"""``i7000 simulate``: modules that are not there, for drivers to be tried against.
+"""``i7000 simulate``: modules that are not there, for drivers to be tried against."""
 
-Laws: what some options need and others do not is imported when it is asked for.
-"""
-
-import asyncio
-import logging
-import signal
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout
-from functools import partial
 from pathlib import Path
-from typing import IO, Any, cast
+from typing import Annotated, Literal
 
-from attrs import fields_dict, frozen
+from cyclopts import Parameter
 
-from i7000.cli.outlet import Outlet, missed_words
-from i7000.cli.simulated import read_module, read_signals
 from i7000.cli.text import Printer
-from i7000.cli.traffic import lines
-from i7000.cli.view import View
-from i7000.cli.words import UsageError, near
-from i7000.device import Eeprom, State
-from i7000.errors import EncodeError, I7000Error
-from i7000.settings import Protocol
-from i7000.simulator.faults import Faults
-from i7000.simulator.observed import Observed
-from i7000.simulator.simulator import Simulated, Simulator
-from i7000.simulator.tcp import LOOPBACK, Connection, listen
 
-__all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_place", "run"]
+__all__ = ["simulate"]
 
 
-@frozen
-class Place:
-    """Where on the network to wait for hosts."""
+def simulate(  # noqa: PLR0913 - each of them is an option
+    *,
+    model: Annotated[
+        tuple[str, ...],
+        Parameter(help="MODEL[@FIRMWARE][,name=value...]; once for each module.", negative="", show_default=False),
+    ] = (),
+    pty: Annotated[
+        bool, Parameter(help="On a pseudo-terminal; so it is if nothing is said.", negative="", show_default=False)
+    ] = False,
+    tcp: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, the bytes as they are.")] = None,
+    rfc2217: Annotated[str | None, Parameter(help="On TCP at [HOST:]PORT, by RFC 2217.")] = None,
+    signal: Annotated[
+        tuple[str, ...],
+        Parameter(help="[ADDRESS:]CHANNELS=SOURCE; what is on the inputs.", negative="", show_default=False),
+    ] = (),
+    fault: Annotated[
+        tuple[str, ...],
+        Parameter(help="What the line does: echo, lumps, drop=0.01 ...", negative="", show_default=False),
+    ] = (),
+    seed: Annotated[int, Parameter(help="Random seed for faults and noise; the same seed repeats the run.")] = 0,
+    eeprom: Annotated[Path | None, Parameter(help="A file for what the modules remember without power.")] = None,
+    view: Annotated[
+        Literal["live", "lines", "none"] | None,
+        Parameter(help="Show modules and traffic, or traffic line by line; live on a terminal if nothing is said."),
+    ] = None,
+) -> int:
+    """Simulate modules on a line, until Ctrl-C.
 
-    scheme: str
-    """``socket`` or ``rfc2217``, as in the URLs of pyserial."""
-    host: str
-    port: int
+    What is printed first is where a driver finds them: the path of a pseudo-terminal, `socket://127.0.0.1:5020`,
+    `rfc2217://127.0.0.1:5021`, as pyserial takes them. Without a host, only this machine gets there; `*` is every
+    address of this machine.
 
+    * Modules: `M-7019R@B3.7`, or with settings, `M-7019R,address=02,type=K/J/T/K/K/K/K/K,protocol=dcon,checksum=true`.
+      Unless given, all is as from the factory, but the n-th module has the address n. `init=true` powers it on with the
+      INIT switch set.
+    * Signals: `0=1.5V`, `all=25degC`, `02:0-3=sine:20:5:60`, `4=ramp:4mA:20mA:10`, `5=noise:100:0.5`, `6=open`,
+      `7=csv:FILE`, `cjc=31.5`; units are those of the types unless given, times seconds. Unless given, each channel has
+      another value within its range.
+    * A CSV file starts with a line of column names: `seconds`, the number of each channel (`0,1,2`), and
+      `cold_junction` for `cjc`; others are ignored. Each further line has one value for every column, decimals with a
+      point, and `open` for an open wire. The seconds rise; a row holds until the next one. At most 2,000,000 rows and
+      200 MB.
+    * Faults: `echo`, `lumps` (answers come every 16 ms), `drop=P`, `flip=P` (of a byte), `noise=P`, `late=P[:SECONDS]`
+      (of an answer), P being a probability.
+    * The file of `--eeprom` is made if it is not there; if it is, what it has stored is what the modules remember, and
+      `--model` may be left out. One simulator at a time uses the file.
 
-@frozen
-class Simulation:
-    """All that is to be simulated, and how to get at it."""
+    Over RFC 2217, a host with another baud rate or parity than a module sends it garbage; elsewhere they do not matter.
+    `--tcp` and `--rfc2217` serve 64 hosts each at a time. A host that does not read loses answers, and so does one for
+    which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that nobody reads is dropped, and
+    counted: `n lines not shown`.
 
-    modules: tuple[Simulated, ...]
-    faults: Faults
-    seed: int
-    memory: Path | None
-    pty: bool
-    places: tuple[Place, ...]
-    view: str
-
-
-@contextmanager
-def held(memory: Path | None) -> Iterator[None]:
-    """Keep other simulators from the file in which the modules remember, if there is one.
-
-    Errors: `UsageError` if another one uses it; that or `OSError` if it cannot be written.
+    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, or a file that is damaged or cannot be written; 130
+    for Ctrl-C before the simulation has begun.
     """
-    if memory is None:
-        yield
-        return
-    from i7000.simulator.memory import MemoryFileError  # noqa: PLC0415
-    from i7000.simulator.memory import held as held_file  # noqa: PLC0415
+    from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
 
-    try:
-        with held_file(memory):
-            yield
-    except MemoryFileError as error:
-        raise UsageError(error) from None
-
-
-def read_modules(
-    texts: Sequence[str], signals: Sequence[str], *, seed: int, memory: Path | None
-) -> tuple[Simulated, ...]:
-    """Tell what modules there are to be, and what is on their inputs.
-
-    Special: what a file has stored is what its modules remember; else what `texts` say is.
-    Errors: `UsageError`, also for a file that is damaged; `OSError`.
-    """
-    described = [read_module(text, address) for address, text in enumerate(texts, 1)]
-    eeproms = tuple(eeprom for eeprom, _ in described)
-    switches = tuple(switch for _, switch in described)
-    if memory is not None and memory.exists():
-        from i7000.simulator.memory import load  # noqa: PLC0415
-
-        try:
-            stored = load(memory)
-        except I7000Error as error:
-            raise UsageError(error) from None
-        if described and list(map(_kind, stored)) != list(map(_kind, eeproms)):
-            raise UsageError(f"{memory} holds {_kinds(stored)}, not {_kinds(eeproms)}")
-        eeproms, switches = stored, switches or (False,) * len(stored)
-    if not eeproms:
-        raise UsageError("no modules: give --model, once for each")
-    return tuple(map(Simulated, eeproms, read_signals(signals, eeproms, seed), switches))
-
-
-def _kind(eeprom: Eeprom) -> str:
-    return f"{eeprom.model.value}@{eeprom.firmware}"
-
-
-def _kinds(eeproms: Sequence[Eeprom]) -> str:
-    return " ".join(map(_kind, eeproms))
-
-
-def read_place(scheme: str, text: str) -> Place:
-    """Read ``[HOST:]PORT``; the host is this machine alone if nothing else is said.
-
-    Errors: `UsageError`.
-
-    >>> read_place("socket", "5020"), read_place("rfc2217", "[::1]:0").host
-    (Place(scheme='socket', host='127.0.0.1', port=5020), '::1')
-    """
-    host, _, port = text.rpartition(":")
-    if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
-        raise UsageError(f"{text!r} is no [HOST:]PORT: a port is 0..65535, 0 any that is free")
-    return Place(scheme, host.strip("[]") or LOOPBACK, int(port))
-
-
-def read_faults(texts: Sequence[str]) -> Faults:
-    """Read ``echo``, ``lumps``, ``drop=0.01``, ``flip=0.01``, ``noise=0.1``, ``late=0.1`` or ``late=0.1:0.25``.
-
-    Errors: `UsageError`.
-
-    >>> read_faults(["echo", "late=0.1:0.25"])
-    Faults(echo=True, lumps=False, drop=0.0, flip=0.0, noise=0.0, late=0.1, late_by=0.25)
-    """
-    found: dict[str, Any] = {}
-    for text in texts:
-        name, equals, value = text.partition("=")
-        kinds = {kind: type(getattr(Faults(), kind)) for kind in fields_dict(Faults) if kind != "late_by"}
-        if name not in kinds:
-            raise UsageError(f"there is no fault {name!r}: {', '.join(kinds)}{near(name, list(kinds))}")
-        if kinds[name] is bool:
-            if equals:
-                raise UsageError(f"--fault {name} has no value")
-            found[name] = True
-            continue
-        probability, colon, late_by = value.partition(":")
-        if colon and name != "late":
-            raise UsageError(f"--fault {text}: only late has a time")
-        try:
-            found[name] = float(probability)
-            if colon:
-                found["late_by"] = float(late_by)
-            Faults(**found)
-        except ValueError as error:
-            reason = error if isinstance(error, EncodeError) else f"give a probability: --fault {name}=0.01"
-            raise UsageError(f"--fault {text}: {reason}") from None
-    return Faults(**found)
-
-
-def run(simulated: Simulation, printer: Printer) -> int:
-    """Simulate until Ctrl-C, or until somebody ends it; where hosts find it is the first that is printed.
-
-    Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
-    """
-    with _handlers_kept(), _never_held_up(printer, simulated.view) as out:
-        try:
-            return asyncio.run(_run(simulated, printer, out))
-        except I7000Error as error:
-            raise UsageError(error) from None
-
-
-_ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-"""The signals that end a simulation: Ctrl-C, and those that come when it is terminated or its terminal hangs up."""
-
-
-@contextmanager
-def _handlers_kept() -> Iterator[None]:
-    """Put back what handled the signals before."""
-    handlers = {number: signal.getsignal(number) for number in _ENDING}
-    try:
-        yield
-    finally:
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-
-
-@contextmanager
-def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
-    """Print so that the simulation goes on, and ends, even if nobody reads what is printed; the value is the output."""
-    out = Outlet(printer.out.file, most=0, counted=False) if view == "live" else Outlet(printer.out.file)
-    err = Outlet(printer.err.file)
-    complaints = logging.StreamHandler(err)
-    logging.getLogger("asyncio").addHandler(complaints)
-    with redirect_stdout(cast(IO[str], out)), redirect_stderr(cast(IO[str], err)):
-        try:
-            yield out
-        finally:
-            missed = out.close()
-            if missed and view == "lines":
-                printer.error(missed_words(missed))
-            logging.getLogger("asyncio").removeHandler(complaints)
-            err.close()
-
-
-async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
-    simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
-    with _ended_by_signals(simulator):
-        if simulated.memory is not None:
-            from i7000.simulator.memory import save  # noqa: PLC0415
-
-            simulator.store = partial(save, simulated.memory)
-            simulator.store([module.eeprom for module in simulated.modules])
-        for address, protocol in _shared(simulator.bus.modules):
-            printer.error(
-                f"several modules have address {address:02X} and speak {protocol.name}: their answers collide"
-            )
-        async with AsyncExitStack() as opened:
-            places = await _open(simulated, simulator, opened)
-            for place in places:
-                printer.out.out(place, highlight=False)
-            printer.out.file.flush()
-            if simulated.view == "lines":
-                simulator.observe = partial(_show_lines, printer, out)
-            elif simulated.view == "live":
-                simulator.report = None
-                view = View(simulator.modules, printer.out, places, simulator.notices)
-                simulator.observe = opened.enter_context(view).show
-            await simulator.run()
-        return 0
-
-
-@contextmanager
-def _ended_by_signals(simulator: Simulator) -> Iterator[None]:
-    """End the simulation at a signal; once it has ended, ignore others, so that what was shown can still be written."""
-    loop = asyncio.get_running_loop()
-    hung_up = getattr(signal, "SIGHUP", None)
-    numbers = [it for it in _ENDING if it != hung_up or signal.getsignal(it) is not signal.SIG_IGN]  # as nohup has it
-    try:
-        for number in numbers:
-            loop.add_signal_handler(number, simulator.end)
-    except NotImplementedError:  # pragma: no cover - Windows: Ctrl-C is an exception there; tested in its own process
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        numbers = []
-    try:
-        yield
-    finally:
-        for number in numbers:
-            loop.remove_signal_handler(number)
-            signal.signal(number, signal.SIG_IGN)
-
-
-def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
-    """Tell the addresses that several modules of one protocol have."""
-    counted = Counter((module.ram.address, module.ram.protocol) for module in modules)
-    return [key for key, count in counted.items() if count > 1]
-
-
-async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitStack) -> list[str]:
-    """Open all places where hosts are to find the bus, and tell them."""
-    found = []
-    if simulated.pty:
-        try:
-            from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
-        except ModuleNotFoundError:
-            raise UsageError("this system has no pseudo-terminals: give --tcp or --rfc2217") from None
-
-        found.append(await opened.enter_async_context(open_pty(simulator)))
-    for place in simulated.places:
-        connection = Connection
-        if place.scheme == "rfc2217":
-            from i7000.simulator.rfc2217 import Rfc2217Connection  # noqa: PLC0415
-
-            connection = Rfc2217Connection
-        listening = listen(simulator, place.host, place.port, connection=connection)
-        found.append(f"{place.scheme}://{await opened.enter_async_context(listening)}")
-    return found
-
-
-def _show_lines(printer: Printer, out: Outlet, observed: Observed) -> None:
-    """Show what was on the line, unless nobody reads what was shown before."""
-    if not out.skip(1 if observed.answer is None else 2):
-        printer.show(lines(observed))
+    printer = Printer()
+    places = [
+        simulating.read_place(scheme, text)
+        for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
+        if text is not None
+    ]
+    with simulating.held(eeprom):
+        simulated = simulating.Simulation(
+            simulating.read_modules(model, signal, seed=seed, memory=eeprom),
+            simulating.read_faults(fault),
+            seed,
+            eeprom,
+            pty or not places,
+            tuple(places),
+            view or ("live" if printer.out.is_terminal else "none"),
+        )
+        return simulating.run(simulated, printer)

@@ -22,7 +22,7 @@ import serial
 
 from i7000 import Model
 from i7000.cli.outlet import Outlet
-from i7000.cli.simulate import read_faults, read_modules, read_place
+from i7000.cli.simulation import read_faults, read_modules, read_place
 from i7000.cli.words import UsageError
 from i7000.device import factory
 from i7000.simulator.memory import held, load, save
@@ -87,7 +87,7 @@ def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object] = lambd
     doing.start()
     try:
         with pytest.MonkeyPatch.context() as patched:
-            patched.setattr("i7000.cli.simulate.Simulator", Begun)
+            patched.setattr("i7000.cli.simulation.Simulator", Begun)
             return run("simulate", *arguments)
     finally:
         doing.join()
@@ -181,7 +181,7 @@ def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: p
             return super().write(text)
 
     monkeypatch.setattr("sys.stdout", Unread())
-    monkeypatch.setattr("i7000.cli.simulate.Outlet", partial(Outlet, most=0))
+    monkeypatch.setattr("i7000.cli.simulation.Outlet", partial(Outlet, most=0))
 
     told = simulated(
         run, "--model", KELVIN, "--tcp", str(port), "--view", "lines",
