@@ -6,7 +6,6 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from i7000 import Model, Profile, dcon, modbus
-from i7000.cli import rtu_records
 from i7000.cli.options import Json, Module, ProtocolName
 from i7000.cli.records import Record, command_record
 from i7000.cli.text import Line, Printer, command_lines, request_lines
@@ -40,8 +39,5 @@ def commands(
 
 
 def _listed(command: type[dcon.AnyCommand | modbus.Request[Any]], models: list[str]) -> tuple[Record, Iterable[Line]]:
-    if issubclass(command, modbus.Request):
-        record = rtu_records.request_record(command, models)
-        return record, request_lines(record)
     record = command_record(command, models)
-    return record, command_lines(record)
+    return record, request_lines(record) if issubclass(command, modbus.Request) else command_lines(record)

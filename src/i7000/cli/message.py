@@ -11,10 +11,10 @@ from typing import Any, get_args
 from attrs import evolve
 
 from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
-from i7000.cli import rtu
-from i7000.cli.dcon import Known, scope
-from i7000.cli.records import message_fields
+from i7000.cli.records import parts_of
 from i7000.cli.words import UsageError, baud_rate, hex_byte, integer, member, near, truth, type_code
+from i7000.dissect import Known
+from i7000.dissect.words import models_words
 from i7000.message import Message
 
 __all__ = ["DCON", "MODBUS", "encode", "frame_text", "make"]
@@ -38,10 +38,8 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
     Errors: `EncodeError` if no module takes it, `UsageError` if the frame depends on the model.
     """
     known = evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended))
-    if isinstance(message, modbus.Message):
-        profiles = rtu.profiles(known)
-    else:
-        profiles = (known.default,) if known.default else known.all
+    by_dcon = (known.default,) if known.default else known.all
+    profiles = known.modbus if isinstance(message, modbus.Message) else by_dcon
     frames: dict[bytes, list[Profile]] = {}
     refusals: list[EncodeError] = []
     for profile in profiles:
@@ -54,7 +52,7 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
     first, *others = frames
     if others:
         ways = "; ".join(
-            f"{frame_text(message, frame)} for {scope((profile.model for profile in found), '')}"
+            f"{frame_text(message, frame)} for {models_words((profile.model for profile in found), '')}"
             for frame, found in frames.items()
         )
         raise UsageError(f"the frame depends on the model, give --model: {ways}")
@@ -91,7 +89,7 @@ def make(name: str, assignments: tuple[str, ...], kinds: Sequence[type[Message]]
         given[field] = value
     values = {}
     missing = []
-    for field, attribute in message_fields(kind).items():
+    for field, attribute in parts_of(kind).items():
         part = _PARTS.get(field)
         if part and not given.keys().isdisjoint((field, *part)):
             values[field] = _assemble(field, part, given)
@@ -100,7 +98,7 @@ def make(name: str, assignments: tuple[str, ...], kinds: Sequence[type[Message]]
         else:
             missing.append(f"{field}=... ({attribute.type.__metadata__[0].allowed})")
     if given:
-        known = [one for field in message_fields(kind) for one in (field, *_PARTS.get(field, ()))]
+        known = [one for field in parts_of(kind) for one in (field, *_PARTS.get(field, ()))]
         unknown = next(iter(given))
         raise UsageError(f"{kind.__name__} has no {unknown}: {', '.join(known)}{near(unknown, known)}")
     if missing:

@@ -6,8 +6,8 @@ from attrs import frozen
 from cyclopts import Parameter
 
 from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model
-from i7000.cli.dcon import Known
 from i7000.cli.words import UsageError, type_codes
+from i7000.dissect import Known
 
 __all__ = ["UNKNOWN", "Json", "Module", "ProtocolName"]
 
@@ -34,8 +34,8 @@ class Module:
     modbus_format: ModbusDataFormat | None = None
     """How its analog registers are written."""
 
-    def known(self, protocol: ProtocolName = "dcon") -> Known:
-        """The options as values.
+    def known(self, protocol: str = "dcon") -> Known:
+        """Return the options as values.
 
         Errors: `UsageError`.
         """
@@ -53,7 +53,7 @@ class Module:
                 self.single_ended,
                 self.modbus_format,
             )
-            _ = known.default, known.all
+            _ = known.default, known.all, protocol == "rtu" and known.modbus
         except EncodeError as error:
             raise UsageError(error) from None
         return known

@@ -5,9 +5,8 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from i7000 import modbus
-from i7000.cli import rtu
 from i7000.cli.options import Json, Module
-from i7000.cli.registers import register_record
+from i7000.cli.records import Record
 from i7000.cli.text import Printer, register_lines
 
 __all__ = ["registers"]
@@ -29,7 +28,24 @@ def registers(
     """
     known = Module(model=model, firmware=firmware).known("rtu")
     with Printer(json=json) as printer:
-        for row in modbus.RegisterMap(rtu.profiles(known)[0]):
+        for row in modbus.RegisterMap(known.modbus[0]):
             record = register_record(row)
             printer.record(record, register_lines(record))
     return 0
+
+
+def register_record(row: modbus.Register) -> Record:
+    """Return the record of a row of an address map."""
+    return {
+        "number": row.number,
+        "last_number": row.last_number,
+        "name": row.name,
+        "address": row.address,
+        "count": row.count,
+        "access": row.access.value,
+        "kind": row.kind.value,
+        "unit": row.unit,
+        "scale": row.scale,
+        "minimum": row.minimum,
+        "maximum": row.maximum,
+    }

@@ -17,9 +17,9 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Self, TextIO
 
 from i7000 import Model
-from i7000.cli.dcon import scope
 from i7000.cli.records import Record
-from i7000.cli.words import type_code_words
+from i7000.dissect import Place
+from i7000.dissect.words import models_words, type_code_words
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -183,23 +183,26 @@ def printable(text: "Text", encoding: str) -> "Text":
 # --- decode -----------------------------------------------------------------------------------------------------------
 
 
-def frame_lines(record: Record, *, models: bool) -> Iterator[Line]:
-    """What a frame means; `models` tells whether to say which models it fits."""
-    yield [(f"{record['line']:<4} ", ""), (record["text"], "bold")]
+def frame_lines(record: Record, answers: Place | None, *, models: bool) -> Iterator[Line]:
+    """Yield what a frame means; `models`: with the models that it fits."""
+    for at, text in enumerate(record["text"].split("\n")):
+        yield [(f"{record['line'] + at:<4} ", ""), (text, "bold")]
     if record["error"]:
         yield [(f"{_INDENT}not understood: {record['error']}", "red")]
     if record["name"]:
-        yield from _meaning(record, models=models, answers=record["answers"])
+        yield from _meaning(record, models=models, answers=answers)
     for count, candidate in enumerate(record["candidates"]):
         yield [(_INDENT + ("or" if count else "could be"), "")]
-        yield from _meaning(candidate, models=models, answers=record["answers"])
+        yield from _meaning(candidate, models=models, answers=answers)
+    for note in record["notes"]:
+        yield _row("note", note)
 
 
-def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[Line]:
+def _meaning(record: Record, *, models: bool, answers: Place | None) -> Iterator[Line]:
     source = f"manual {record['section']}" + (f"; {' '.join(record['errata'])}" if record["errata"] else "")
     yield [(_INDENT, ""), (record["name"], "cyan"), (f": {record['title']} ({source})", "")]
     if record["command"]:
-        yield _row("answers", f"{record['command']}, line {answers}")
+        yield _row("answers", f"{record['command']}{f', {answers.where}' if answers else ''}")
     for name, words in record["explained"].items():
         yield _row(name, words)
     yield from _registers(record["registers"])
@@ -210,15 +213,13 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[L
         yield _row("checksum", "right")
     if record["pause"]:
         yield _row("pause", f"{record['pause']:g} s before the next command")
-    if record["note"]:
-        yield _row("note", record["note"])
     if models:
         yield _row("models", _scope(tuple(record["models"]), record["section"]))
 
 
 @lru_cache(maxsize=256)
 def _scope(models: tuple[str, ...], section: str) -> str:
-    return scope(map(Model, models), section)
+    return models_words(map(Model, models), section)
 
 
 def _row(name: str, words: str) -> Line:

@@ -198,7 +198,7 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
         firmware=NEWEST if firmware is None else firmware,
         type_codes=(model.default_type or TypeCode.J,) * inputs,
         report_settings=ReportSettings(fast_mode=model.fast_mode_default),
-        name=(model.series + model.suffix.replace("-", "")).upper()[:6],
+        name=model.factory_name,
         protocol=max(model.protocols),
         channel_mask=(1 << inputs) - 1,
         channel_offsets=zeros,
