@@ -16,10 +16,10 @@ from functools import cached_property, lru_cache
 from itertools import groupby
 from typing import TYPE_CHECKING, Self, TextIO
 
-from i7000 import Model
+from i7000 import Model, describe
 from i7000.cli.records import Record
 from i7000.dissect import Place
-from i7000.dissect.words import models_words, type_code_words
+from i7000.dissect.words import models_words
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -236,7 +236,7 @@ def _readings(record: Record) -> Iterator[Line]:
             line.append((f"  {reading['status'].upper()}", "yellow"))
         yield line
     for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
-        yield _row("type", type_code_words(code))
+        yield _row("type", describe.type_code(code))
     if any(reading["status"] is reading["type_code"] is None for reading in record["readings"]):
         yield _row("type", "not known: --type tells")
     if record["assumed"]:

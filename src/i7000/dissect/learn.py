@@ -154,15 +154,19 @@ def _name(_: Any, response: dcon.ModuleName, __: Known) -> _Pairs:  # noqa: ANN4
 
 
 def _series(_: Any, response: modbus.ModuleName, __: Known) -> _Pairs:  # noqa: ANN401
-    models = tuple(
-        it for it in Model if bytes.fromhex(f"00{it.series}00") == response.name and Protocol.MODBUS_RTU in it.protocols
-    )
+    models = tuple(it for it in Model if it.modbus_name == response.name and Protocol.MODBUS_RTU in it.protocols)
     if models:
         yield "models", models
 
 
 def _version(_: Any, response: dcon.FirmwareVersion, __: Known) -> _Pairs:  # noqa: ANN401
     yield "firmware", Firmware(response.version)
+
+
+def _bytes_version(_: Any, response: modbus.FirmwareVersion, __: Known) -> _Pairs:  # noqa: ANN401
+    version = Firmware.from_bytes(bytes((response.major, response.minor, response.build)))
+    if version is not None:
+        yield "firmware", version
 
 
 _Row = Callable[[Any, Any, Known], _Pairs]
@@ -174,6 +178,7 @@ _READ: Mapping[type | None, _Row] = {
     dcon.ReadChannelMask: lambda _, response, __: iter((("mask", response.mask),)),
     dcon.ReadConnectingMode: lambda _, response, __: iter((("single_ended", response.single_ended),)),
     modbus.ReadModuleName: _series,
+    modbus.ReadFirmwareVersion: _bytes_version,
     modbus.ReadTypeCode: lambda command, response, known: _channel_type(command.channel, response.type_code, known),
     modbus.ReadChannelMask: lambda _, response, __: iter((("mask", response.mask),)),
 }
@@ -211,6 +216,9 @@ _REGISTERS: Mapping[str | None, Callable[[Item, Known], _Pairs]] = {
     "type_code": lambda item, known: _channel_type(item.channel or 0, TypeCode.of(item.value), known),
     "module_type_code": lambda item, _: _types(TypeCode.of(item.value)),
     "modbus_data_format": lambda item, _: iter((("modbus_data_format", ModbusDataFormat(int(item.value))),)),
+    "firmware_version": lambda item, _: iter(
+        (("firmware", Firmware(item.value)),) if isinstance(item.value, str) else ()
+    ),
     "single_ended": lambda item, _: iter((("single_ended", bool(item.value)),)),
     "channel_mask": lambda item, _: iter((("mask", item.value),)),
 }

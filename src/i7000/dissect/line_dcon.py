@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 from attrs import evolve
 
+from i7000 import describe
 from i7000.dissect.causes import dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
 from i7000.dissect.known import Fact, Known, Module, fact_words
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
-from i7000.dissect.words import type_code_words
 from i7000.errors import DecodeError
 from i7000.profile import Profile
 from i7000.settings import Protocol
@@ -203,7 +203,7 @@ def _lacking(meaning: Meaning) -> str | None:
     if code is None or code == MIXED or len(meaning.fit.models) != 1 or any(map(_supporting(code), profiles)):
         return None
     model = profiles[0].model.value
-    words = type_code_words(code)
+    words = describe.type_code(code)
     if meaning.command is None:
         return f"type {words}: none that an {model} can have; it answers ?AA"
     return f"type {words}: none that an {model} can have; another model?"

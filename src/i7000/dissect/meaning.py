@@ -4,11 +4,10 @@ import re
 from functools import cache, cached_property
 from typing import Any, NamedTuple
 
-from attrs import fields, frozen
+from attrs import frozen
 
 from i7000 import dcon
 from i7000.dissect.known import Fact, Origin
-from i7000.dissect.words import field_words
 from i7000.errors import DecodeError
 from i7000.message import Message
 from i7000.models import Model
@@ -17,7 +16,7 @@ from i7000.readings import Reading, Status
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode, Unit
 
-__all__ = ["ChannelReading", "Field", "Fit", "Item", "Meaning", "errata", "field_names"]
+__all__ = ["ChannelReading", "Field", "Fit", "Item", "Meaning", "errata"]
 
 
 class Field(NamedTuple):
@@ -113,10 +112,9 @@ class Meaning:
     @cached_property
     def fields(self) -> tuple[Field, ...]:
         """The fields of the message."""
-        message, command = self.message, self.command
-        kind: Any = type(message)
-        values = ((name, getattr(message, name)) for name in field_names(kind))
-        return tuple(Field(name, value, field_words(message, command, name, value)) for name, value in values)
+        message = self.message
+        texts = message.describe(self.command)
+        return tuple(Field(name, getattr(message, name), text) for name, text in texts.items())
 
     @property
     def errata(self) -> tuple[str, ...]:
@@ -154,12 +152,6 @@ class Meaning:
     def checksum(self) -> bool | None:
         """Whether it has a DCON checksum; None: it fits with and without."""
         return None if self.protocol is Protocol.MODBUS_RTU else self.fit.checksum
-
-
-@cache
-def field_names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a message class
-    """Return the names of the fields of a message class."""
-    return tuple(field.name for field in fields(kind))
 
 
 @cache
