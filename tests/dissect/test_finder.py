@@ -7,7 +7,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from i7000 import modbus
-from i7000.dissect.finder import Kind, find
+from i7000.dissect.finder import find
+from i7000.dissect.found import Kind
 from i7000.dissect.shapes import is_shaped
 from i7000.strategies.dcon import exchanges
 from i7000.strategies.modbus import exchanges as modbus_exchanges

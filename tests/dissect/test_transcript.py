@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import modbus
-from i7000.dissect.finder import Kind
+from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
 from tests.dissect.spellings import BEFORE, WITHOUT_FRAMES
 

@@ -6,7 +6,8 @@ mean, with what is `Known` of each module by then.
 It does no I/O: your program reads the file or the port, and hands over lines or bytes.
 """
 
-from i7000.dissect.finder import Found, Kind, find
+from i7000.dissect.finder import find
+from i7000.dissect.found import Found, Kind
 from i7000.dissect.heard import Direction, Heard, Line, Place
 from i7000.dissect.known import Fact, Knowledge, Known, Module, Origin
 from i7000.dissect.line import flush, hear, hear_frame

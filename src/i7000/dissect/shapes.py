@@ -11,12 +11,13 @@ from functools import cache
 from i7000 import dcon
 from i7000.dcon.layout import Part
 
-__all__ = ["is_shaped", "report"]
+__all__ = ["is_shaped", "plain_shapes", "report"]
 
 _FIELD = r"[+-](?:\d\.\d{4}|\d\d\.\d{3}|\d{3}\.\d\d|\d{4}\.\d)|[+-](?:9999|0000)(?!\.)|[0-9A-F]{4}"
 _FIELDS = rf"(?:(?:{_FIELD})|\x20{{7}})+"
 _WIDTHS = {"channel_digits": "{1,2}", "mask_digits": "{2,6}"}
-_RESTS = {"values": _FIELDS, "value": _FIELDS, "name": r"[^\s%#$~@!>?]{1,6}", "version": r"[A-Z]\d+\.\d+"}
+_NAME = r"[^\s%#$~@!>?]{1,6}"
+_RESTS = {"values": _FIELDS, "value": _FIELDS, "name": _NAME, "version": r"[A-Z]\d+\.\d+"}
 _CHECKSUM = r"(?:[0-9A-F]{2})?"
 
 
@@ -45,19 +46,24 @@ def _kinds() -> Iterator[type[dcon.Message]]:
 
 
 def _any(kinds: Iterable[type[dcon.Message]]) -> str:
-    return "|".join(dict.fromkeys(map(_pattern, kinds)))
+    return rf"(?:{'|'.join(dict.fromkeys(map(_pattern, kinds)))}){_CHECKSUM}"
 
 
 @cache
 def _shapes() -> re.Pattern[str]:
-    return re.compile(rf"(?:{_any(_kinds())}){_CHECKSUM}", re.ASCII)
+    return re.compile(_any(_kinds()), re.ASCII)
+
+
+def plain_shapes() -> str:
+    """Return the pattern of all commands and responses, as text; names have letters and digits only."""
+    return _any(_kinds()).replace(_NAME, "[-0-9A-Za-z]{1,6}")
 
 
 @cache
 def report() -> re.Pattern[str]:
     """Return the pattern of a response that holds channel fields, in which a blank does not end the frame."""
     reports = (kind for kind in _kinds() if kind.syntax[0] == ">")
-    return re.compile(rf"(?:{_any(reports)}){_CHECKSUM}(?=\.?(?:[\s\"'`)\]}}>,;|]|$))", re.ASCII)
+    return re.compile(rf"{_any(reports)}(?=\.?(?:[\s\"'`)\]}}><,;|]|$))", re.ASCII)
 
 
 def is_shaped(body: str) -> bool:

@@ -5,17 +5,18 @@ put together only where nothing else can be made of its parts.
 """
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
-from attrs import frozen
-
-from i7000.dissect.finder import Found, Kind, bytes_of, find, frames_of
+from i7000.dissect.finder import read_line
+from i7000.dissect.found import Found, Kind
+from i7000.dissect.in_bytes import frames_of
+from i7000.dissect.plain import find_plain
 from i7000.modbus import LONGEST_FRAME
 
 __all__ = ["Piece", "pieces"]
 
 
-@frozen
-class Piece:
+class Piece(NamedTuple):
     """A frame, or a line in which there is none."""
 
     number: int
@@ -28,8 +29,7 @@ class Piece:
     wire: bytes
 
 
-@frozen
-class _Part:
+class _Part(NamedTuple):
     """A line that spells bytes which are no frame yet."""
 
     number: int
@@ -46,14 +46,20 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
     """
     parts: list[_Part] = []
     for number, text in lines:
-        found = find(text)
-        wire = b"" if any(it.kind is not Kind.DAMAGED for it in found) else bytes_of(text)
-        if not wire:
+        plain = find_plain(text)
+        if plain is not None:
+            if parts:
+                yield from _apart(parts)
+                parts = []
+            yield Piece(number, number, text, plain[0], plain[1])
+            continue
+        found, part = read_line(text)
+        if not part:
             yield from _apart(parts)
             parts = []
             yield from _of_line(number, text, found)
             continue
-        parts.append(_Part(number, text, found, wire))
+        parts.append(_Part(number, text, found, part))
         while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
             yield from _apart(parts[:1])
             del parts[0]
@@ -66,12 +72,18 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
 
 
 def _whole(parts: list[_Part]) -> int | None:
-    """From which of the parts on they are whole frames."""
-    for first in range(len(parts) - 1):
-        wire = b"".join(part.wire for part in parts[first:])
-        if sum(end - start for _, start, end in frames_of(wire)) == len(wire):
-            return first
-    return None
+    """From which of the parts on they are whole frames; None if they are not."""
+    begins = {0: 0}
+    for number, part in enumerate(parts):
+        begins[max(begins) + len(part.wire)] = number + 1
+    end = max(begins)
+    first = None
+    for _, start, stop in reversed(frames_of(b"".join(part.wire for part in parts))):
+        if stop != end:
+            break
+        end = start
+        first = begins.get(start, first)
+    return first if first is not None and first < len(parts) - 1 else None
 
 
 def _joined(parts: list[_Part]) -> Iterator[Piece]:
