@@ -125,7 +125,8 @@ def decode(
     known = module.known(protocol)
     count = 0
     wrong = Counted()
-    with Printer(json=json) as printer, _source(frames, file, printer) as lines:
+    printer = Printer(json=json)
+    with _source(frames, file, printer) as lines:
         records = (
             rtu_records.line_records(numbered_hex_pieces(lines), known)
             if protocol == "rtu"
@@ -238,11 +239,11 @@ def commands(
     """
     known = Module(model=model, firmware=firmware).known()
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
-    with Printer(json=json) as printer:
-        for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
-            having = [profile.model.value for profile in profiles if command.section not in profile.refused]
-            if having:
-                printer.record(*_listed(command, having))
+    printer = Printer(json=json)
+    for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
+        having = [profile.model.value for profile in profiles if command.section not in profile.refused]
+        if having:
+            printer.record(*_listed(command, having))
     return 0
 
 
@@ -270,10 +271,10 @@ def registers(
     a count), `minimum`, `maximum` (in counts).
     """
     known = Module(model=model, firmware=firmware).known("rtu")
-    with Printer(json=json) as printer:
-        for row in modbus.RegisterMap(rtu.profiles(known)[0]):
-            record = register_record(row)
-            printer.record(record, register_lines(record))
+    printer = Printer(json=json)
+    for row in modbus.RegisterMap(rtu.profiles(known)[0]):
+        record = register_record(row)
+        printer.record(record, register_lines(record))
     return 0
 
 
@@ -364,9 +365,7 @@ def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and tell the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
         return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
@@ -378,4 +377,3 @@ def run(arguments: Sequence[str] | None) -> int:
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
-    return code
