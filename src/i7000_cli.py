@@ -14,6 +14,9 @@ FAILED = 2
 CLOSED = 141
 """Exit code if nobody reads the output to its end, as after ``| head -1``: the same of a broken pipe."""
 
+_ROOM = 1 << 16
+"""Bytes of output that are written at once: each time takes as long as many lines."""
+
 try:
     import signal
     from contextlib import suppress
@@ -23,8 +26,9 @@ except KeyboardInterrupt:  # pragma: no cover
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from typing import TextIO
 
-__all__ = ["CLOSED", "INTERRUPTED", "end_at_ctrl_c", "main", "program"]
+__all__ = ["CLOSED", "INTERRUPTED", "end_at_ctrl_c", "main", "program", "roomy"]
 
 
 def main() -> int:
@@ -35,7 +39,19 @@ def main() -> int:
 
         return command_line()
 
+    sys.stdout = roomy(sys.stdout)
     return program(run)
+
+
+def roomy(output: "TextIO | None") -> "TextIO | None":
+    """Return an output that keeps more until it is written; that of a terminal, which shows each line, stays."""
+    try:
+        if output is None or output.isatty():
+            return output
+        descriptor = output.fileno()
+    except OSError:  # It is no file of the system.
+        return output
+    return open(descriptor, "w", _ROOM, output.encoding, output.errors, closefd=False)
 
 
 def program(run: "Callable[[], int]") -> int:

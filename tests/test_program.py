@@ -18,7 +18,7 @@ import pytest
 import i7000_cli
 from i7000.cli import app
 from i7000.cli.text import Printer
-from i7000_cli import CLOSED, FAILED, INTERRUPTED, program
+from i7000_cli import CLOSED, FAILED, INTERRUPTED, program, roomy
 
 PROGRAM = (sys.executable, "-m", "i7000_cli")
 MODELS = ("simulate", "--model", "I-7018")
@@ -128,6 +128,36 @@ def test_ctrl_c_has_no_effect_when_a_program_is_done() -> None:
     interrupted()
 
     assert code == 7
+
+
+# --- output -----------------------------------------------------------------------------------------------------------
+
+
+def test_output_is_written_in_large_pieces() -> None:
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    with os.fdopen(writing, "w", encoding="latin-1", errors="backslashreplace") as file:
+        output = roomy(file)
+        assert output
+        output.write("\xe9\u20ac\n" * 5000)
+        with pytest.raises(BlockingIOError):
+            os.read(reading, 1 << 16)
+        output.flush()
+
+        assert os.read(reading, 1 << 16) == b"\xe9\\u20ac\n" * 5000
+    os.close(reading)
+
+
+def test_output_on_a_terminal_is_shown_line_by_line() -> None:
+    end, near = pty.openpty()
+    with os.fdopen(near, "w", encoding="ascii") as terminal:
+        assert roomy(terminal) is terminal
+    os.close(end)
+
+
+@pytest.mark.parametrize("output", [None, io.StringIO()])
+def test_output_that_is_no_file_of_the_system_stays(output: io.StringIO | None) -> None:
+    assert roomy(output) is output
 
 
 # --- output that nobody reads -----------------------------------------------------------------------------------------
