@@ -14,7 +14,7 @@ from attrs import Attribute, evolve, field, fields_dict, frozen
 from i7000.arguments import LARGEST_FLOAT, check_clock, check_type
 from i7000.dcon import ModuleName
 from i7000.device.logger import Log
-from i7000.errors import EncodeError
+from i7000.errors import ArgumentError, EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
 from i7000.readings import Reading
@@ -170,10 +170,11 @@ _Frozen = TypeVar("_Frozen")
 
 
 def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
-    """Copy a frozen value with changes, which are not checked: what is frozen is its own dictionary."""
+    """Copy a frozen value with changes, whose values are not checked: what is frozen is its own dictionary."""
     fields = vars(value) | changes
     if len(fields) != len(vars(value)):
-        raise TypeError(f"{type(value).__name__} has no {fields.keys() - vars(value).keys()}")
+        name, *_ = (name for name in changes if name not in vars(value))
+        raise ArgumentError(name, changes[name], ", ".join(vars(value)), f"{type(value).__name__} has no {name}")
     copy = object.__new__(type(value))
     object.__setattr__(copy, "__dict__", fields)
     return copy
@@ -247,20 +248,27 @@ class Ram:
     reset_status_told: bool = False
 
     def __attrs_post_init__(self) -> None:
-        for name, kinds in _KEPT.items():
-            if not isinstance(getattr(self, name), kinds):
-                allowed = " or ".join(kind.__name__ for kind in kinds)
-                raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
-        if not is_int(self.address, 0, 0xFF):
-            raise EncodeError("address", self.address, "00..FF", "2")
-        for name in _TIMES:
-            value = getattr(self, name)
-            if value is not None and not is_number(value):
-                raise EncodeError(name, value, "a finite number", "")
-        if not is_int(self.soft_init_timeout, 0, 0xFF):
-            raise EncodeError("soft_init_timeout", self.soft_init_timeout, "00..FF", "2.34")
-        if not all(isinstance(it, tuple) and tuple(map(type, it)) == (TypeCode, Reading) for it in self.sampled or ()):
-            raise EncodeError("sampled", self.sampled, "type code and reading of each channel", "2.2")
+        for name in _KEPT:
+            self.check(name)
+
+    def check(self, name: str) -> None:
+        """Check the value of a field.
+
+        Errors: `EncodeError`.
+        """
+        value, kinds = getattr(self, name), _KEPT[name]
+        if not isinstance(value, kinds):
+            raise EncodeError(name, value, f"an instance of {' or '.join(kind.__name__ for kind in kinds)}", "")
+        if name in _BYTES and not is_int(value, 0, 0xFF):
+            raise EncodeError(name, value, "00..FF", _BYTES[name])
+        if name in _TIMES and value is not None and not is_number(value):
+            raise EncodeError(name, value, "a finite number", "")
+        if name == "sampled" and not all(map(_is_sampled, self.sampled or ())):
+            raise EncodeError(name, value, "type code and reading of each channel", "2.2")
+
+
+def _is_sampled(channel: object) -> bool:
+    return isinstance(channel, tuple) and tuple(map(type, channel)) == (TypeCode, Reading)
 
 
 _KEPT: dict[str, tuple[type, ...]] = {
@@ -271,6 +279,8 @@ _KEPT: dict[str, tuple[type, ...]] = {
     "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
 }  # fmt: skip
 """What each field of `Ram` can be."""
+_BYTES = {"address": "2", "soft_init_timeout": "2.34"}
+"""The fields of `Ram` that must be a byte, and their sections of the manual."""
 _TIMES = ("fed_at", "soft_init_until", "held_cold_junction")
 """The fields of `Ram` that must be finite."""
 
@@ -320,11 +330,12 @@ class State:
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
         """Change the EEPROM.
 
-        Errors: `EncodeError` for what no module can have stored; only what changes is looked at.
+        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what no module can have stored;
+            only what changes is looked at.
         """
+        eeprom = _copied(self.eeprom, changes)
         if "model" in changes:  # by which nearly everything is measured
             return State(evolve(self.eeprom, **changes), self.ram, clock=self.clock)
-        eeprom = _copied(self.eeprom, changes)
         for name, value in changes.items():
             stored = _STORED[name]
             stored.validator(eeprom, stored, value)  # type: ignore[misc] # all of them have one
@@ -336,8 +347,13 @@ class State:
         return _state(eeprom, self.ram, profile, inputs, self.clock)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
-        """Change the RAM."""
+        """Change the RAM.
+
+        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what it cannot hold.
+        """
         ram = _copied(self.ram, changes)
+        for name in changes:
+            ram.check(name)
         same = ram.checksum == self.ram.checksum
         profile = self.profile if same else profile_of(self.eeprom, checksum=ram.checksum)
         return _state(self.eeprom, ram, profile, self.inputs, self.clock)
