@@ -1,6 +1,7 @@
 """The file of a memory: how it is written, and who may use it."""
 
 import errno
+import fcntl
 import os
 import stat
 import subprocess
@@ -204,6 +205,35 @@ def test_a_file_is_used_by_one_simulator_at_a_time(path: Path) -> None:
     assert str(refused.value) == (
         f"{link}: the file itself: is used by another simulator; allowed: one simulator a file"
     )
+
+
+def test_a_file_that_cannot_be_locked_is_not_said_to_be_used(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", fail)
+    with pytest.raises(OSError, match=r"cannot be locked by .bus.json.lock beside it: No locks available") as failed:
+        hold(path)
+
+    assert failed.value.filename == str(path)
+
+
+def test_a_lock_that_cannot_be_made_is_named(path: Path) -> None:
+    path.with_name(".bus.json.lock").mkdir()
+
+    with pytest.raises(IsADirectoryError, match=r"cannot be locked by .bus.json.lock beside it: .*: '.*bus.json'$"):
+        hold(path)
+
+
+def test_a_hard_link_is_a_file_of_its_own_once_it_is_saved(path: Path) -> None:
+    save(path, MODULES)
+    link = path.with_name("link.json")
+    link.hardlink_to(path)
+
+    with held(path), held(link):
+        save(link, MODULES[:1])
+
+        assert (load(path), load(link)) == (MODULES, MODULES[:1])
 
 
 def test_the_lock_of_a_process_that_was_killed_is_gone(path: Path) -> None:
