@@ -8,8 +8,9 @@ import logging
 import signal
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout
+from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from functools import partial
+from ipaddress import IPv6Address
 from pathlib import Path
 from typing import IO, Any, cast
 
@@ -120,7 +121,18 @@ def read_place(scheme: str, text: str) -> Place:
     host, _, port = text.rpartition(":")
     if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
         raise UsageError(f"{text!r} is no [HOST:]PORT: a port is 0..65535, 0 any that is free")
-    return Place(scheme, host.strip("[]") or LOOPBACK, int(port))
+    return Place(scheme, _host(host, text) or LOOPBACK, int(port))
+
+
+def _host(host: str, text: str) -> str:
+    """Return a host without the brackets that an address of IPv6 has, which has colons."""
+    if host.startswith("[") and host.endswith("]"):
+        with suppress(ValueError):
+            IPv6Address(host[1:-1])
+            return host[1:-1]
+    elif not set(host) & set("[]:"):
+        return host
+    raise UsageError(f"{text!r} is no [HOST:]PORT: an IPv6 address stands in brackets, as in [::1]:5020")
 
 
 def read_faults(texts: Sequence[str]) -> Faults:
