@@ -37,10 +37,10 @@ def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[
 
 
 @pytest.mark.parametrize(
-    "path", sorted(ROOT.glob("*.md")) + [ROOT / "spec/README.md", ROOT / "tests/README.md"], ids=str
+    "name", [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md"]
 )
-def test_text_keeps_to_the_line_width_of_the_code(path: Path) -> None:
-    text = re.sub(r"```.*?```|^[|#].*?$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:
+    text = re.sub(r"```.*?```|^[|#].*?$", "", (ROOT / name).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
 
     assert [line for line in text.splitlines() if len(line) > 120] == []
 
