@@ -10,9 +10,10 @@ from math import ceil, floor
 
 from attrs import evolve
 
+from i7000.arguments import check_seconds
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
-from i7000.settings import is_int, is_number
+from i7000.settings import is_int
 
 __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 
@@ -98,8 +99,7 @@ class Log:
 
     def __attrs_post_init__(self) -> None:
         for name, value in (("clock_offset", self.clock_offset), ("next_at", self.next_at)):
-            if not is_number(value):
-                raise EncodeError(name, value, "a finite number of seconds", "")
+            check_seconds(name, value)
         if not isinstance(self.command, LogCommand):
             raise EncodeError("command", self.command, "a LogCommand", "3.4.3")
         if not isinstance(self.overwrite, bool):

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
-from i7000.arguments import LARGEST_FLOAT, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, check_clock, check_seconds, check_type, is_number
 from i7000.dcon import ModuleName
 from i7000.device.logger import Log
 from i7000.errors import ArgumentError, EncodeError
@@ -27,7 +27,6 @@ from i7000.settings import (
     Protocol,
     ReportSettings,
     is_int,
-    is_number,
 )
 from i7000.type_codes import TypeCode
 
@@ -261,8 +260,10 @@ class Ram:
             raise EncodeError(name, value, f"an instance of {' or '.join(kind.__name__ for kind in kinds)}", "")
         if name in _BYTES and not is_int(value, 0, 0xFF):
             raise EncodeError(name, value, "00..FF", _BYTES[name])
-        if name in _TIMES and value is not None and not is_number(value):
-            raise EncodeError(name, value, "a finite number", "")
+        if name in _TIMES and value is not None:
+            check_seconds(name, value)
+        if name == "held_cold_junction" and value is not None and not is_number(value):
+            raise EncodeError(name, value, "a finite number of degrees Celsius", "")
         if name == "sampled" and not all(map(_is_sampled, self.sampled or ())):
             raise EncodeError(name, value, "type code and reading of each channel", "2.2")
 
@@ -281,8 +282,7 @@ _KEPT: dict[str, tuple[type, ...]] = {
 """What each field of `Ram` can be."""
 _BYTES = {"address": "2", "soft_init_timeout": "2.34"}
 """The fields of `Ram` that must be a byte, and their sections of the manual."""
-_TIMES = ("fed_at", "soft_init_until", "held_cold_junction")
-"""The fields of `Ram` that must be finite."""
+_TIMES = ("fed_at", "soft_init_until")
 
 
 # --- a module with power ----------------------------------------------------------------------------------------------
@@ -324,8 +324,7 @@ class State:
     """When it was last heard of, which makes no difference to what it is."""
 
     def __attrs_post_init__(self) -> None:
-        if not is_number(self.clock):
-            raise EncodeError("clock", self.clock, "a finite number of seconds", "")
+        check_seconds("clock", self.clock)
 
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
         """Change the EEPROM.
