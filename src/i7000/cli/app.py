@@ -33,9 +33,7 @@ def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and tell the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
         return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
@@ -47,4 +45,3 @@ def run(arguments: Sequence[str] | None) -> int:
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
-    return code

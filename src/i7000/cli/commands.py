@@ -30,11 +30,11 @@ def commands(
     """
     known = Module(model=model, firmware=firmware).known()
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
-    with Printer(json=json) as printer:
-        for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
-            having = [profile.model.value for profile in profiles if command.section not in profile.refused]
-            if having:
-                printer.record(*_listed(command, having))
+    printer = Printer(json=json)
+    for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
+        having = [profile.model.value for profile in profiles if command.section not in profile.refused]
+        if having:
+            printer.record(*_listed(command, having))
     return 0
 
 

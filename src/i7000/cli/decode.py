@@ -59,7 +59,8 @@ def decode(
     knowledge = Knowledge.given(module.known(protocol))
     count = 0
     wrong = Counted()
-    with Printer(json=json) as printer, _source(frames, file, printer) as lines:
+    printer = Printer(json=json)
+    with _source(frames, file, printer) as lines:
         texts = ((number, text.decode("utf-8", "surrogateescape")) for number, text in lines)
         for record, heard in records(texts, knowledge, _PROTOCOLS[protocol]):
             count += 1

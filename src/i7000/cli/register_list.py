@@ -27,10 +27,10 @@ def registers(
     a count), `minimum`, `maximum` (in counts).
     """
     known = Module(model=model, firmware=firmware).known("rtu")
-    with Printer(json=json) as printer:
-        for row in modbus.RegisterMap(known.modbus[0]):
-            record = register_record(row)
-            printer.record(record, register_lines(record))
+    printer = Printer(json=json)
+    for row in modbus.RegisterMap(known.modbus[0]):
+        record = register_record(row)
+        printer.record(record, register_lines(record))
     return 0
 
 

@@ -12,9 +12,10 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import cached_property, lru_cache
 from itertools import groupby
-from typing import TYPE_CHECKING, Self, TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from i7000 import Model, describe
 from i7000.cli.records import Record
@@ -40,28 +41,18 @@ Line = list[tuple[str, str]]
 """The spans of a line: texts and their styles; no style is the empty one."""
 
 _INDENT = "     "
-_BUFFERED = 1 << 16
-"""Characters that are kept until they are written; `Printer.flush` writes them at once."""
 _json = json.JSONEncoder(check_circular=False).encode
 
 
 class Printer:
     """Where output goes: `json` as one object a line, else for people.
 
-    Time: records are kept until there are many, until `flush`, or until the end of a ``with`` block.
+    Time: records off a terminal are in the buffer of standard output until `flush`: Ctrl-C loses none of them.
     """
 
     def __init__(self, *, json: bool = False) -> None:
         self.json = json
         self._styled = _is_styled(sys.stdout)
-        self._kept: list[str] = []
-        self._size = 0
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.flush()
 
     @cached_property
     def out(self) -> "Console":
@@ -80,13 +71,13 @@ class Printer:
     def record(self, record: Record, lines: Iterable[Line]) -> None:
         """Print a record: as it is, or in lines for people."""
         if self.json:
-            self._write(_json(record))
+            _write(_json(record))
         elif self._styled:
             for line in lines:
                 _print(self.out, _text(line))
         else:
             for line in lines:
-                self._write(_plain(line, sys.stdout))
+                _write(_plain(line, sys.stdout))
 
     def show(self, lines: Iterable["Text"]) -> None:
         """Print texts for people, at once."""
@@ -96,7 +87,8 @@ class Printer:
 
     def error(self, message: object) -> None:
         """Say what is wrong."""
-        self.flush()
+        with suppress(OSError):  # `program` reports that the output cannot be written.
+            self.flush()
         line = [(f"i7000: {message}", "red")]
         if _is_styled(sys.stderr):
             _print(self.err, _text(line))
@@ -104,17 +96,14 @@ class Printer:
             sys.stderr.write(f"{_plain(line, sys.stderr)}\n")
 
     def flush(self) -> None:
-        """Write what was kept."""
-        kept, self._kept, self._size = self._kept, [], 0
-        if kept and sys.stdout:
-            sys.stdout.write("".join(kept))
+        """Write what was printed, now."""
+        if sys.stdout:
             sys.stdout.flush()
 
-    def _write(self, line: str) -> None:
-        self._kept += (line, "\n")
-        self._size += len(line)
-        if self._size >= _BUFFERED:
-            self.flush()
+
+def _write(line: str) -> None:
+    if sys.stdout:
+        sys.stdout.write(line + "\n")
 
 
 def _is_styled(file: TextIO | None) -> bool:

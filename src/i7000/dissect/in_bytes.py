@@ -126,9 +126,7 @@ def _styles(text: str, run: Run) -> list[_Style]:
         marks = [_DECORATION.search(text, max(0, byte.start - 1), byte.end) for byte in run]
         decorations = [mark[0] if mark else "" for mark in marks]
     return [
-        _Style(
-            "".join(gap.split()) or gap[:1], max(before.word, byte.word), other.lower() if one == other else ""
-        )
+        _Style("".join(gap.split()) or gap[:1], max(before.word, byte.word), other.lower() if one == other else "")
         for before, byte, one, other in zip(run, run[1:], decorations, decorations[1:], strict=False)
         for gap in [text[before.end : byte.start]]
     ]
