@@ -14,6 +14,7 @@ RINGS = {
     "arguments": 1,
     "type_codes": 1,
     "settings": 1,
+    "describe": 1,
     "fields": 1,
     "models": 1,
     "profile": 1,

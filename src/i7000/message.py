@@ -79,6 +79,14 @@ class Message:
         )
         return f"{type(self).__name__}({', '.join(values)})"
 
+    def describe(self, request: "Message | None" = None) -> dict[str, str]:  # noqa: ARG002 - for those that need it
+        """Return the fields in words, by name; `request` is the command or request that the message answers.
+
+        Shape: codes, masks and settings with their meaning, quantities with their unit.
+        """
+        parts = {it.name: it.type.__metadata__[0] for it in fields(type(self))}  # type: ignore[arg-type] # as in `_values`
+        return {name: parts[name].describe(value) for name, value in self._values().items()}
+
     def check(self, profile: Profile) -> None:
         """Refuse what the module of `profile` does not take or send.
 

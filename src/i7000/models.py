@@ -65,6 +65,25 @@ class Firmware:
     def __repr__(self) -> str:
         return f"Firmware({str(self)!r})"
 
+    @classmethod
+    def from_bytes(cls, version: bytes) -> "Firmware | None":
+        """The version that three bytes are: major, minor and build (E75, assumption); None for those of no version.
+
+        Manual: 3.3.7; E67, E75.
+
+        >>> Firmware.from_bytes(bytes((0x0B, 4, 5))), Firmware.from_bytes(bytes((4, 5, 0)))
+        (Firmware('B4.5'), None)
+        """
+        letter, major, minor = version
+        if not 10 <= letter < 36 or major > 9 or minor > 99:
+            return None
+        return cls(f"{chr(letter - 10 + ord('A'))}{major}.{minor}")
+
+    def __bytes__(self) -> bytes:
+        """Major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption)."""
+        letter, major, minor = self._key
+        return bytes((int(letter, 36), major, minor))
+
 
 Gates = Mapping["Model", Firmware | None]
 """The models that have a thing, and the firmware from which on (None: always)."""
@@ -121,6 +140,22 @@ class Model(Enum):
     def series(self) -> str:
         """The series within I-7000 or M-7000: ``7017``, ``7018`` or ``7019``."""
         return self.value[2:6]
+
+    @classmethod
+    def series_of(cls, name: bytes) -> str | None:
+        """The series that a name by Modbus is of, ``7019``; None for any other bytes.
+
+        Manual: 3.3.1; E75, E77.
+
+        >>> Model.series_of(bytes.fromhex("00701900"))
+        '7019'
+        """
+        return _SERIES.get(name)
+
+    @property
+    def modbus_name(self) -> bytes:
+        """The name by Modbus, which has the series only: 00 70 19 00 (3.3.1; E75, E77)."""
+        return bytes.fromhex(f"00{self.series}00")
 
     @property
     def suffix(self) -> str:
@@ -249,6 +284,9 @@ class Model(Enum):
         if self.series == "7017":
             return Firmware("B2.6")
         return Firmware("B2.9") if self.series == "7018" and self.suffix != "Z" else Firmware("B3.1")
+
+
+_SERIES = {model.modbus_name: model.series for model in Model}
 
 
 def series(*names: str) -> frozenset[Model]:

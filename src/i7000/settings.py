@@ -21,6 +21,7 @@ __all__ = [
     "DataFormat",
     "Filter",
     "LineSettings",
+    "LogCommand",
     "ModbusDataFormat",
     "Protocol",
     "ReportSettings",
@@ -128,6 +129,14 @@ class CjcUpdate(IntEnum):
     STOPPED = 0
     STARTED = 1
     ONCE = 2
+
+
+class LogCommand(IntEnum):
+    """What the data logger of the M-7017mC-16 is told to do (40876)."""
+
+    STOP = 0
+    CONTINUOUS = 1
+    PERIOD = 2
 
 
 def is_int(value: object, low: int, high: int) -> bool:

@@ -11,6 +11,7 @@ from i7000 import (
     CharacterFormat,
     CjcUpdate,
     Filter,
+    Firmware,
     LineSettings,
     ModbusDataFormat,
     Model,
@@ -170,14 +171,14 @@ def test_the_name_is_that_of_the_series(model: Model, name: bytes) -> None:
     module = rtu(model)
 
     assert module.ask(modbus.ReadModuleName(1)).name == name
-    assert module.read("module_name") == name
+    assert module.read("module_name") == model.series
 
 
 def test_the_firmware_is_three_bytes() -> None:
     module = rtu(Model.M_7017R, "B405")
 
     assert module.ask(modbus.ReadFirmwareVersion(1)) == modbus.FirmwareVersion(1, 0x0B, 4, 5)
-    assert module.read("firmware_version") == 0x0B0405
+    assert module.read("firmware_version") == Firmware("B4.5")
 
 
 # --- address, line, protocol ------------------------------------------------------------------------------------------

@@ -208,6 +208,20 @@ def test_a_module_has_the_rows_of_its_map_for_every_firmware(stem: str, model: M
         )
 
 
+@pytest.mark.parametrize(("stem", "model"), MODEL_MAPS, ids=lambda value: getattr(value, "value", ""))
+def test_a_row_of_few_values_names_those_of_its_map(stem: str, model: Model) -> None:
+    registers = modbus.RegisterMap(Profile(model, type_codes=()))
+    printed = {row["name"]: row["values"] for row in MAPS[stem]["rows"] if row["values"]}
+
+    for row in registers:
+        if row.labels:
+            assert dict(enumerate(row.labels)) == {int(number): text for number, text in printed[row.name].items()}
+        elif row.name in printed:
+            assert row.maximum is not None
+            codes = row.values or range(row.minimum or 0, row.maximum + 1)
+            assert [str(int(getattr(code, "value", code))) for code in codes] == list(printed[row.name])
+
+
 @pytest.mark.parametrize("model", Model, ids=lambda model: model.value)
 def test_a_module_without_modbus_has_no_rows(model: Model) -> None:
     assert bool(rows_of(Profile(model))) == (Protocol.MODBUS_RTU in model.protocols)

@@ -15,6 +15,7 @@ from i7000 import (
     Filter,
     Firmware,
     LineSettings,
+    LogCommand,
     ModbusDataFormat,
     Model,
     Profile,
@@ -25,7 +26,7 @@ from i7000 import (
     Unit,
     modbus,
 )
-from i7000.modbus import Access, Area, Kind, Register, RegisterMap
+from i7000.modbus import Access, Area, Kind, Register, RegisterMap, WordOrder
 
 MODBUS_MODELS = [model for model in Model if Protocol.MODBUS_RTU in model.protocols]
 CLEARED_BY = {"host_watchdog_timeout_count": 0, "host_watchdog_timed_out": 1}
@@ -266,8 +267,14 @@ def test_a_value_is_written_in_the_unit_of_its_row(
     ("registers", "key", "items", "value"),
     [
         (M_7017, "host_watchdog_timeout", [25], 2.5),
+        (M_7017, "firmware_version", [0x0305, 0x000B], Firmware("B3.5")),
         (M_7017, "firmware_version", [0x0305, 0x0001], 0x00010305),
-        (M_7017, "module_name", [0x1700, 0x0070], bytes.fromhex("00701700")),
+        (M_7017, "firmware_version", [0x0A05, 0x000B], 0x000B0A05),
+        (M_7017, "firmware_version", [0x0364, 0x000B], 0x000B0364),
+        (M_7017, "firmware_version", [0x0305, 0x0024], 0x00240305),
+        (M_7017, "firmware_version", [0x0305, 0x010B], 0x010B0305),
+        (M_7017, "module_name", [0x1700, 0x0070], "7017"),
+        (M_7017, "module_name", [0x1700, 0x0071], 0x00711700),
         (M_7017, "protocol", [True], Protocol.MODBUS_RTU),
         (M_7017, "filter", [False], Filter.REJECT_60_HZ),
         (M_7017, "modbus_data_format", [True], ModbusDataFormat.ENGINEERING),
@@ -287,12 +294,14 @@ def test_a_value_is_written_in_the_unit_of_its_row(
         (M_7019R, "cjc_update", [1], CjcUpdate.STARTED),
         (M_7019R, "type_code", [0x0F] * 8, (TypeCode.K,) * 8),
         (LOGGER, "rtc_epoch", [0x5678, 0x1234], 0x12345678),
+        (LOGGER, "log_command", [2], LogCommand.PERIOD),
+        (LOGGER, "log_status", [1], 1),
         (M_7017, 30003, [0x7FFF], Reading(10.0, Unit.VOLT)),
         (M_7017, "40001", [0x8000], Reading(-10.0, Unit.VOLT)),
         (M_7017, 7, [0x8000], Reading(-10.0, Unit.VOLT)),
         (M_7017, 10131, [1], True),
         (M_7019R, 40258, [0x0F], TypeCode.K),
-        (M_7017, 40482, [0x0305, 0x0001], 0x00010305),
+        (M_7017, 40482, [0x0305, 0x000B], Firmware("B3.5")),
     ],
     ids=str,
 )  # fmt: skip
@@ -304,7 +313,7 @@ def test_items_are_told_in_the_unit_of_their_row(
     assert (value, type(value)) == (told, type(told))
 
 
-@pytest.mark.parametrize(("key", "told"), [("firmware_version", 0x12345678), ("module_name", b"\x12\x34\x56\x78")])
+@pytest.mark.parametrize(("key", "told"), [("firmware_version", 0x12345678), ("module_name", 0x12345678)])
 def test_the_words_of_version_and_name_have_one_order(key: str, told: Any) -> None:
     for big_endian in (False, True):
         assert told == LOGGER.decode(key, [0x5678, 0x1234], big_endian=big_endian)
@@ -733,3 +742,55 @@ def test_channels_are_a_range(channels: Any) -> None:
     ):
         with pytest.raises(EncodeError, match=r"channels cannot be .*: a range within 0\.\.7"):
             use()
+
+
+@pytest.mark.parametrize(
+    ("registers", "name", "value", "words"),
+    [
+        (M_7017, "protocol", Protocol.MODBUS_RTU, "modbus_rtu"),
+        (M_7017, "filter", Filter.REJECT_50_HZ, "reject_50_hz"),
+        (M_7017, "host_watchdog_enabled", False, "no"),
+        (M_7017, "host_watchdog_timeout", 2.5, "2.5 s"),
+        (M_7017, "response_delay", 30, "30 ms"),
+        (M_7017, "module_address", 26, "1A"),
+        (M_7017, "module_type_code", TypeCode.V_10, "08, -10..10 V"),
+        (M_7017, "module_type_code", 0xFF, "FF, the channels have different types"),
+        (M_7017, "line_settings", LineSettings(), "06, 9600 baud, N81"),
+        (M_7017, "line_settings", 0x186, "186, not defined"),
+        (M_7017, "channel_mask", 0x05, "05, channels 0, 2"),
+        (M_7017, "firmware_version", Firmware("B307"), "B3.7"),
+        (M_7017, "firmware_version", 0x00010305, "00010305, not defined"),
+        (M_7017, "module_name", "7017", "M-7017 series"),
+        (M_7017, "module_name", 0x00711700, "00711700, not defined"),
+        (M_7017, "host_watchdog_timeout_count", 7, "7"),
+        (M_7018, "module_cjc_offset", -40.96, "-40.96 degC"),
+        (M_7019R, "cjc_update", CjcUpdate.ONCE, "once"),
+        (M_7019R, "sampling_rate", True, "8 Hz"),
+        (M_7019R, "sampling_rate", False, "10 Hz"),
+        (RegisterMap(Profile(Model.M_7017Z)), "channel_mask_high", 0x9, "09, channels 16, 19"),
+        (LOGGER, "log_status", 1, "running"),
+        (LOGGER, "log_status", 2, "2"),
+        (LOGGER, "log_command", LogCommand.CONTINUOUS, "continuous"),
+    ],
+    ids=str,
+)
+def test_a_value_is_described_with_its_meaning_and_unit(
+    registers: RegisterMap, name: str, value: Any, words: str
+) -> None:
+    assert words == registers.find(name).describe(value)
+
+
+def test_what_only_a_clearing_value_can_be_written_to_says_which() -> None:
+    assert {row.name: row.cleared_by for row in LOGGER if row.cleared_by is not None} == CLEARED_BY
+
+
+def test_every_number_of_32_bits_has_a_word_order() -> None:
+    ordered = {row.name: row.word_order for row in LOGGER if row.word_order}
+    fixed = {name for name, order in ordered.items() if order is WordOrder.LOW_FIRST}
+
+    assert set(ordered) == {row.name for row in LOGGER if row.kind in (Kind.UINT32, Kind.RECORD)}
+    assert fixed == {"firmware_version", "module_name"}
+
+
+def test_only_reading_the_reset_status_changes_it() -> None:
+    assert [row.name for row in LOGGER if row.ends_when_read] == ["reset_status"]

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from i7000 import DecodeError, LineSettings, Reading, modbus
+from i7000 import DecodeError, Firmware, LineSettings, Reading, modbus
 from i7000.modbus.register_values import counts_of
 from tests.spec.lint import Record, load, table_files
 from tests.vectors import parameters, profile_of
@@ -38,8 +38,10 @@ def plain(value: Any) -> list[tuple[Any, str | None]]:
         return [(value.value, value.status.value)]
     if isinstance(value, LineSettings):
         return [(value.byte, None)]
-    if isinstance(value, bytes):
-        return [(int.from_bytes(value, "big"), None)]
+    if isinstance(value, Firmware):
+        return [(int.from_bytes(bytes(value), "big"), None)]
+    if isinstance(value, str):
+        return [(int(f"00{value}00", 16), None)]
     return [(getattr(value, "value", value), None)]
 
 

@@ -181,7 +181,7 @@ def test_a_log_holds_six_records_of_sixteen_channels() -> None:
     ("profile", "name", "value"),
     [
         (PLAINEST, "host_watchdog_timeout", 25.5),
-        (PLAINEST, "module_name", b"\x00\x70\x17\x00"),
+        (PLAINEST, "module_name", "7017"),
         (PLAINEST_7019, "module_cjc_offset", -40.96),
         (LOGGER, "rtc_epoch", 0xFFFFFFFF),
     ],

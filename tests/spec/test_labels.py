@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from i7000 import CjcUpdate, Filter, ModbusDataFormat, Model, Protocol, TypeCode, Unit
+from i7000 import CjcUpdate, Filter, LogCommand, ModbusDataFormat, Model, Protocol, TypeCode, Unit
 from i7000.device import Eeprom, Signals
-from i7000.device.logger import LogCommand
 from tests.device.driver import Bench, bench
 from tests.spec import lint
 from tests.spec.cells import Cell, row_id, wrong

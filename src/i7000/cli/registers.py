@@ -3,13 +3,12 @@
 Laws: every item that a message touches is told, by the manual's number, if it has a name or not.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from enum import Enum
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from i7000 import DecodeError, LineSettings, Profile, Reading, TypeCode, modbus
-from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
+from i7000 import DecodeError, Firmware, LineSettings, Profile, Reading, TypeCode, modbus
 from i7000.modbus import Area, Kind, Register, RegisterMap
 
 __all__ = ["Cell", "cells", "register_record"]
@@ -151,7 +150,7 @@ def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iter
         if row.kind is Kind.RECORD:
             yield from _log(empty, value)
         else:
-            yield Cell(number, name, channel, _plain(value), row.unit, _words(row, value))
+            yield Cell(number, name, channel, _plain(value), row.unit, row.describe(value))
 
 
 def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
@@ -183,29 +182,9 @@ def _log(empty: Cell, records: tuple[modbus.LogRecord, ...]) -> Iterator[Cell]:
 def _plain(value: Any) -> Any:  # noqa: ANN401 - of any register
     if isinstance(value, LineSettings):
         return value.byte
-    if isinstance(value, bytes):
-        return value.hex()
+    if isinstance(value, Firmware):
+        return str(value)
     return value.value if isinstance(value, Enum) else value
-
-
-def _words(row: Register, value: Any) -> str:  # noqa: ANN401 - of any register
-    if row.name in _WORDS and not (row.name == "line_settings" and isinstance(value, int)):
-        return _WORDS[row.name](value)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, Enum):
-        return value.name.lower()
-    return f"{value:.7g} {row.unit}" if row.unit else f"{value}"
-
-
-_WORDS: dict[str, Callable[[Any], str]] = {
-    "type_code": type_code_words,
-    "module_type_code": type_code_words,
-    "channel_mask": mask_words,
-    "line_settings": line_settings_words,
-    "module_name": module_name_words,
-    "firmware_version": "{:08X}".format,
-}
 
 
 # --- the map of a model -----------------------------------------------------------------------------------------------

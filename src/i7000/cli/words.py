@@ -10,7 +10,12 @@ from enum import Enum
 from math import isfinite
 from typing import TypeVar
 
-from i7000 import MIXED, BaudRate, DataFormat, Filter, LineSettings, Model, ReportSettings, TypeCode, Unit, dcon
+from i7000 import MIXED, BaudRate, TypeCode, Unit
+from i7000.describe import line_settings as line_settings_words
+from i7000.describe import mask as mask_words
+from i7000.describe import module_name as module_name_words
+from i7000.describe import report_settings as report_settings_words
+from i7000.describe import type_code as type_code_words
 
 __all__ = [
     "UsageError",
@@ -180,71 +185,3 @@ def channel_numbers(text: str, count: int, separator: str = ",") -> tuple[int, .
             raise UsageError(f"there is no channel {part}: 0..{count - 1}")
         found.extend(range(first, last + 1))
     return tuple(found)
-
-
-# --- values in words --------------------------------------------------------------------------------------------------
-
-
-def type_code_words(code: int) -> str:
-    """Tell a type.
-
-    >>> type_code_words(0x0F), type_code_words(0x05), type_code_words(0x20)
-    ('0F, thermocouple K, -270..1372 degC', '05, -2.5..2.5 V', '20, not defined')
-    """
-    known = TypeCode.of(code)
-    if not isinstance(known, TypeCode):
-        return f"{code:02X}, {'the channels have different types' if code == MIXED else 'not defined'}"
-    kind = f"thermocouple {known.thermocouple}, " if known.thermocouple else ""
-    return f"{code:02X}, {kind}{known.minimum:g}..{known.maximum:g} {known.unit}"
-
-
-def line_settings_words(line: LineSettings) -> str:
-    """Tell CC.
-
-    >>> line_settings_words(LineSettings.from_byte(0x86))
-    '86, 9600 baud, E81'
-    """
-    rate = line.baud_rate
-    baud = f"{rate.bits_per_second} baud" if isinstance(rate, BaudRate) else f"baud rate code {rate:02X} not defined"
-    return f"{line.byte:02X}, {baud}, {line.character_format.name}"
-
-
-def mask_words(mask: int) -> str:
-    """Tell a mask.
-
-    >>> mask_words(0x0A), mask_words(0)
-    ('0A, channels 1, 3', '00, no channel')
-    """
-    channels = sorted(dcon.channels_of(mask))
-    word = "no channel" if not channels else "channel" if len(channels) == 1 else "channels"
-    return f"{mask:02X}, {word} {', '.join(map(str, channels))}".rstrip()
-
-
-def module_name_words(name: bytes) -> str:
-    """Tell the name that a module has by Modbus.
-
-    >>> module_name_words(bytes.fromhex("00701900")), module_name_words(bytes(4))
-    ('00701900, M-7019 series', '00000000')
-    """
-    digits = name.hex()
-    known = digits[:2] == digits[6:] == "00" and digits[2:6] in {model.series for model in Model}
-    return f"{digits}, M-{digits[2:6]} series" if known else digits
-
-
-def report_settings_words(report: ReportSettings) -> str:
-    """Tell FF.
-
-    >>> report_settings_words(ReportSettings.from_byte(0x42))
-    '42, hex, checksum, normal mode, 60 Hz rejected'
-    """
-    form = report.data_format
-    words = [
-        f"{report.byte:02X}",
-        form.name.lower() if isinstance(form, DataFormat) else f"data format {form} not defined",
-        "checksum" if report.checksum else "no checksum",
-        "fast mode" if report.fast_mode else "normal mode",
-        "50 Hz rejected" if report.filter is Filter.REJECT_50_HZ else "60 Hz rejected",
-    ]
-    if report.reserved:
-        words.append(f"reserved bits {report.reserved:03b}")
-    return ", ".join(words)

@@ -13,6 +13,7 @@ from typing import Annotated, Any, NamedTuple
 
 from attrs import fields
 
+from i7000 import describe
 from i7000.dcon.names import CHARACTERS, is_name, is_version
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.fields import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
@@ -53,6 +54,18 @@ class Part(NamedTuple):
     """What its characters can be, where a wrong one is a fault of its own."""
     signed: bool = False
     """Whether a sign stands before its `characters`; `parse` judges the sign itself."""
+    values: Any = None
+    """The type of its values where they are more than numbers or text: an enumeration, bool or settings."""
+    unit: str | None = None
+    """The unit of a quantity."""
+    scale: float = 1
+    """What one count is in the unit."""
+    describe: Callable[[Any], str] = describe.value
+    """The value in words, with its unit."""
+
+    def __repr__(self) -> str:
+        """What `help` shows beside a field: the notation and the values."""
+        return f"<{self.notation}: {self.allowed}>"
 
 
 _PAIRS = {f"{byte:02X}": byte for byte in range(256)}
@@ -66,21 +79,29 @@ def _parse_hex(text: str) -> int:
     return int(text, 16)
 
 
-def _byte(notation: str) -> Part:
-    """Two hex digits."""
-    return Part(notation, "00..FF", "%02X", "{}", lambda value: is_int(value, 0, 0xFF), _PAIRS.__getitem__)
+def byte(notation: str, words: Callable[[int], str] = describe.hex_byte) -> Part:
+    """Two hex digits, described with `words`."""
+    return Part(
+        notation, "00..FF", "%02X", "{}",
+        lambda value: is_int(value, 0, 0xFF), _PAIRS.__getitem__, describe=words,
+    )  # fmt: skip
+
+
+def _quantity(part: Part, unit: str, scale: float, form: str) -> Part:
+    """A number that counts `scale` of a unit, described as a number of the format `form`."""
+    return part._replace(unit=unit, scale=scale, describe=describe.quantity(unit, scale, form))
 
 
 def _type_code(notation: str) -> Part:
-    """Two hex digits that are a type code, or a number that is none."""
-    return Part(notation, "00..FF", "%02X", "{}", lambda value: is_int(value, 0, 0xFF), _TYPE_CODES.__getitem__)
+    """Two hex digits: a type code, or an undefined number."""
+    return byte(notation, describe.type_code)._replace(parse=_TYPE_CODES.__getitem__, values=TypeCode)
 
 
-def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings]) -> Part:
+def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings], words: Callable[[Any], str]) -> Part:
     """Two hex digits that are a byte of settings."""
     return Part(
         notation, f"{kind.__name__}", "%02X", "{}.byte",
-        lambda value: isinstance(value, kind), lambda text: kind.from_byte(_PAIRS[text]),
+        lambda value: isinstance(value, kind), lambda text: kind.from_byte(_PAIRS[text]), values=kind, describe=words,
     )  # fmt: skip
 
 
@@ -90,7 +111,7 @@ def _choice(notation: str, kind: type[bool | CjcUpdate | Protocol]) -> Part:
     allowed = " ".join(f"{digit} ({value!s})" if kind is bool else digit for digit, value in values.items())
     return Part(
         notation, f"{kind.__name__}: {allowed}", "%d", "{}",
-        lambda value: isinstance(value, kind), values.__getitem__, Fault.VALUE,
+        lambda value: isinstance(value, kind), values.__getitem__, Fault.VALUE, values=kind,
     )  # fmt: skip
 
 
@@ -111,7 +132,7 @@ def _mask(notation: str) -> Part:
     """A bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
     return Part(
         notation, "2, 4 or 6 hex digits", "%0*X", "p.mask_digits, {}",
-        lambda value: is_int(value, 0, 0xFFFFFF), _parse_hex, width="mask_digits",
+        lambda value: is_int(value, 0, 0xFFFFFF), _parse_hex, width="mask_digits", describe=describe.mask,
     )  # fmt: skip
 
 
@@ -123,10 +144,11 @@ def _offset(notation: str) -> Part:
             raise DecodeError(Fault.NUMBER, text.encode(), allowed="+ or -")
         return _parse_hex(text[1:]) * (-1 if text[0] == "-" else 1)
 
-    return Part(
+    part = Part(
         notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
         lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, signed=True,
     )  # fmt: skip
+    return _quantity(part, "degC", 0.01, "+.2f")
 
 
 def _temperature(notation: str) -> Part:
@@ -141,9 +163,8 @@ def _temperature(notation: str) -> Part:
         number = isinstance(value, int | float) and not isinstance(value, bool)
         return number and -9999.9 <= value <= 9999.9 and round(value, 1) == value
 
-    return Part(
-        notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{} + 0.0", accepts, parse, Fault.NUMBER, 7
-    )  # fmt: skip
+    part = Part(notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{} + 0.0", accepts, parse, Fault.NUMBER, 7)
+    return _quantity(part, "degC", 1, "+.1f")
 
 
 def _text(
@@ -168,6 +189,7 @@ def _text(
     return Part(
         notation, allowed, "%b", "{}.encode()",
         accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(CHARACTERS)),
+        describe=repr,
     )  # fmt: skip
 
 
@@ -217,12 +239,12 @@ def _value(notation: str) -> Part:
 
 
 # The types of fields, by the notation of the manual.
-Address = Annotated[int, _byte("AA")]
-NewAddress = Annotated[int, _byte("NN")]
+Address = Annotated[int, byte("AA")]
+NewAddress = Annotated[int, byte("NN")]
 NewTypeCode = Annotated[TypeCode | int, _type_code("TT")]
 ChannelTypeCode = Annotated[TypeCode | int, _type_code("rr")]
-Line = Annotated[LineSettings, _settings("CC", LineSettings)]
-Report = Annotated[ReportSettings, _settings("FF", ReportSettings)]
+Line = Annotated[LineSettings, _settings("CC", LineSettings, describe.line_settings)]
+Report = Annotated[ReportSettings, _settings("FF", ReportSettings, describe.report_settings)]
 ChannelN = Annotated[int, _channel("N")]
 ChannelI = Annotated[int, _channel("i")]
 CalibratedChannel = Annotated[int, _digit("i")]
@@ -252,9 +274,8 @@ FlagN = Annotated[bool, _choice("N", bool)]
 FlagS = Annotated[bool, _choice("S", bool)]
 FlagE = Annotated[bool, _choice("E", bool)]
 FlagV = Annotated[bool, _choice("V", bool)]
-Seconds = Annotated[int, _byte("nn")]
-Tenths = Annotated[int, _byte("VV")]
-StatusByte = Annotated[int, _byte("SS")]
+Seconds = Annotated[int, _quantity(byte("nn"), "s", 1, "d")]
+Tenths = Annotated[int, _quantity(byte("VV"), "s", 0.1, ".1f")]
 
 
 # --- layouts ----------------------------------------------------------------------------------------------------------

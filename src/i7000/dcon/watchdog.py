@@ -1,5 +1,7 @@
 """The host watchdog: a module that hears no host for too long remembers it (manual 2.35 to 2.39, A.2)."""
 
+from typing import Annotated
+
 from attrs import field
 
 from i7000.dcon import layout
@@ -31,6 +33,12 @@ class HostOk(Broadcast):
     title = "sign of life of the host"
 
 
+def _status(status: int) -> str:
+    message = HostWatchdogStatus(0, status)
+    enabled = "enabled" if message.enabled else "disabled"
+    return f"{status:02X}, {enabled}, {'timed out' if message.timed_out else 'not timed out'}"
+
+
 @frozen
 class HostWatchdogStatus(Response):
     """Tell whether the watchdog is on, and whether it has timed out.
@@ -45,7 +53,7 @@ class HostWatchdogStatus(Response):
     title = "host watchdog status"
 
     address: layout.Address
-    status: layout.StatusByte
+    status: Annotated[int, layout.byte("SS", _status)]
 
     @property
     def enabled(self) -> bool:

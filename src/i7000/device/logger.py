@@ -5,14 +5,13 @@ recorded is what it is handed. What the manual leaves open, which is much, is ch
 """
 
 from collections.abc import Mapping
-from enum import IntEnum
 from math import ceil, floor
 
 from attrs import evolve
 
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
-from i7000.settings import is_number
+from i7000.settings import LogCommand, is_number
 
 __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 
@@ -23,14 +22,6 @@ RECORDS_IN_MAP = 6
 Date = tuple[int, int, int, int, int, int]
 """Year, month, date, hour, minute, second."""
 _DAY = 86_400
-
-
-class LogCommand(IntEnum):
-    """What the data logger is told to do (40876)."""
-
-    STOP = 0
-    CONTINUOUS = 1
-    PERIOD = 2
 
 
 @frozen

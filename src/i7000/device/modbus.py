@@ -13,7 +13,7 @@ from attrs import evolve
 from i7000 import modbus
 from i7000.device.call import Call
 from i7000.device.changes import enable_channels, set_address, set_cjc_update, set_line, set_types
-from i7000.device.registers import RequestError, firmware_bytes, read, series_bytes, write
+from i7000.device.registers import RequestError, read, write
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError, Fault
@@ -140,12 +140,12 @@ def _offset(call: Call) -> int:
 
 
 _TOLD: dict[type, Callable[[Call], modbus.Response]] = {
-    modbus.ReadModuleName: lambda it: modbus.ModuleName(it.address, series_bytes(it.eeprom.model)),
+    modbus.ReadModuleName: lambda it: modbus.ModuleName(it.address, it.eeprom.model.modbus_name),
     modbus.ReadCommunicationSettings: lambda it: modbus.CommunicationSettings(
         it.address, it.eeprom.line_settings, it.eeprom.protocol
     ),
     modbus.ReadTypeCode: lambda it: modbus.TypeCodeSetting(it.address, it.eeprom.type_codes[it.message.channel]),
-    modbus.ReadFirmwareVersion: lambda it: modbus.FirmwareVersion(it.address, *firmware_bytes(it.eeprom.firmware)),
+    modbus.ReadFirmwareVersion: lambda it: modbus.FirmwareVersion(it.address, *bytes(it.eeprom.firmware)),
     modbus.ReadChannelMask: lambda it: modbus.ChannelMask(it.address, it.state.enabled),
     modbus.ReadMiscellaneousSettings: lambda it: modbus.MiscellaneousSettings(it.address, _miscellaneous(it)),
     modbus.ReadCjcOffset: lambda it: modbus.CjcOffset(it.address, _offset(it)),

@@ -20,17 +20,17 @@ from i7000.device.changes import (
     set_types,
     type_code,
 )
-from i7000.device.logger import DATE_PARTS, LogCommand, changed, date_of
+from i7000.device.logger import DATE_PARTS, changed, date_of
 from i7000.device.measurement import cold_junction, faults, temperatures, words
 from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError
-from i7000.modbus import Access, Area, ExceptionCode, Kind, Register, SetCommunicationSettings
+from i7000.modbus import Access, Area, ExceptionCode, Kind, Register
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import rows
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
 
-__all__ = ["RequestError", "firmware_bytes", "read", "series_bytes", "write"]
+__all__ = ["RequestError", "read", "write"]
 
 
 class RequestError(Exception):
@@ -86,7 +86,7 @@ def read(call: Call, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
         if row.kind is Kind.RECORD and (at % Kind.RECORD.width or len(asked) % Kind.RECORD.width):
             raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
         found += _words_of(row, call)[at : at + len(asked) - len(found)]
-        if row.name == "reset_status":
+        if row.ends_when_read:
             state = state.keep(reset_status_told=True)
     return state, found
 
@@ -99,23 +99,6 @@ def _words_of(row: Register, call: Call) -> tuple[int, ...]:
         return counts_of(row, items[0], call.state.profile, big_endian=call.eeprom.big_endian)
     mask = 0xFF if row.kind is Kind.INT8 else 0xFFFF
     return tuple([item & mask for item in items])
-
-
-def series_bytes(model: Model) -> bytes:
-    """Tell a series as four bytes: 00 70 17 00.
-
-    Manual: 3.3.1; E75, E77.
-    """
-    return bytes.fromhex(f"00{model.series}00")
-
-
-def firmware_bytes(firmware: Firmware) -> tuple[int, int, int]:
-    """Tell a version as major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption).
-
-    Manual: 3.3.7; E67, E75.
-    """
-    letter, major, minor = str(firmware)[0], str(firmware)[1], str(firmware)[3:]
-    return int(letter, 36), int(major), int(minor)
 
 
 def _records(call: Call) -> list[int]:
@@ -155,8 +138,8 @@ _READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
     "cjc_offset": lambda it: (
         it.eeprom.channel_cjc_offsets if it.eeprom.model.series == "7019" else it.eeprom.channel_offsets
     ),
-    "firmware_version": lambda it: int.from_bytes(bytes((0, *firmware_bytes(it.eeprom.firmware))), "big"),
-    "module_name": lambda it: int.from_bytes(series_bytes(it.eeprom.model), "big"),
+    "firmware_version": lambda it: int.from_bytes(bytes(it.eeprom.firmware), "big"),
+    "module_name": lambda it: int.from_bytes(it.eeprom.model.modbus_name, "big"),
     "module_address": lambda it: it.eeprom.address,
     "line_settings": lambda it: it.eeprom.line_settings.byte,
     "module_type_code": lambda it: type_code(it.state),
@@ -234,8 +217,6 @@ def _values(row: Register, at: int, new: Sequence[int], call: Call) -> tuple[Any
         values = values_of(row, tuple(words), 0, row.count // row.kind.width, profile, big_endian=big_endian)
         for value in values:
             counts_of(row, value, profile, big_endian=big_endian)
-        if row.name == "line_settings":
-            SetCommunicationSettings(call.eeprom.address, values[0], call.eeprom.protocol).check(profile)
     except (DecodeError, EncodeError):
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
     return values
@@ -321,7 +302,7 @@ _WRITE: dict[str, Callable[[Call], State]] = {
     "big_endian": lambda it: it.state.store(big_endian=it.value),
     "rtc_epoch": lambda it: it.state.store(log=it.eeprom.log.set_epoch(it.value, it.now)),
     "log_read_index": lambda it: it.state.store(log=evolve(it.eeprom.log, read_index=it.value)),
-    "log_command": lambda it: _log(it, command=LogCommand(it.value)),
+    "log_command": lambda it: _log(it, command=it.value),
     "log_overwrite": lambda it: it.state.store(log=evolve(it.eeprom.log, overwrite=bool(it.value))),
     **{f"log_period_{part}": _set_period(at) for at, part in enumerate(_PERIOD_PARTS)},
     **{f"log_{name}_{part}": _set_log_date(name, part) for name in ("start", "end") for part in DATE_PARTS},

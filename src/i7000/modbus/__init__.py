@@ -76,6 +76,7 @@ from i7000.modbus.registers import (
     Area,
     Kind,
     Register,
+    WordOrder,
 )
 from i7000.modbus.request import (
     BROADCAST,
@@ -178,6 +179,7 @@ __all__ = [
     "SingleRegisterWritten",
     "TypeCodeResult",
     "TypeCodeSetting",
+    "WordOrder",
     "WriteMultipleCoils",
     "WriteMultipleRegisters",
     "WriteSingleCoil",

@@ -3,6 +3,8 @@
 Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
 """
 
+from typing import Annotated
+
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -183,6 +185,18 @@ class SetChannelMask(Request[ChannelMaskResult]):
         check_mask(self, self.mask, profile)
 
 
+def _settings(settings: int) -> str:
+    words = [f"{settings:02X}", f"{50 if settings & FILTER_BIT else 60} Hz rejected"]
+    words.append("fast mode" if settings & FAST_MODE_BIT else "normal mode")
+    reserved = settings & ~(FILTER_BIT | FAST_MODE_BIT)
+    if reserved:
+        words.append(f"reserved bits {reserved:02X}")
+    return ", ".join(words)
+
+
+_SettingsByte = Annotated[int, layout.byte(_settings)]
+
+
 @frozen
 class MiscellaneousSettings(Response):
     """Tell filter and fast mode.
@@ -196,7 +210,7 @@ class MiscellaneousSettings(Response):
     section = "3.3.10"
     title = "miscellaneous settings"
 
-    settings: layout.Byte
+    settings: _SettingsByte
 
     @property
     def filter(self) -> Filter:
@@ -251,7 +265,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
     section = "3.3.11"
     title = "miscellaneous settings"
 
-    settings: layout.Byte
+    settings: _SettingsByte
 
     def check(self, profile: Profile) -> None:
         """Refuse bits that the module does not have."""

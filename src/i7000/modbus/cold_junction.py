@@ -3,8 +3,11 @@
 Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
 """
 
+from typing import Annotated
+
 from attrs import field
 
+from i7000 import message
 from i7000.arguments import check_type
 from i7000.errors import EncodeError
 from i7000.message import frozen
@@ -45,6 +48,19 @@ def check_offset_channel(sent: Message, channel: int, profile: Profile) -> None:
         raise EncodeError("channel", f"{channel:02X}", allowed, sent.section)
 
 
+def _channel(channel: int) -> str:
+    if not channel:
+        return "00, the module"
+    return f"{channel:02X}, " + (f"channel {channel - FIRST_CHANNEL}" if channel >= FIRST_CHANNEL else "not defined")
+
+
+def _offset(channel: int, offset: int) -> str:
+    return f"{offset_in_celsius(channel, offset):+.{1 if channel else 2}f} degC"
+
+
+_OffsetChannel = Annotated[int, layout.byte(_channel)]
+
+
 @frozen
 class CjcOffset(Response):
     """Tell an offset of the cold-junction temperature.
@@ -59,6 +75,14 @@ class CjcOffset(Response):
     title = "CJC offset"
 
     offset: layout.SignedWord
+
+    def describe(self, request: message.Message | None = None) -> dict[str, str]:
+        """Return the fields in words: the unit of the offset is known from `request`."""
+        if isinstance(request, ReadCjcOffset):
+            words = _offset(request.channel, self.offset)
+        else:
+            words = f"{self.offset}, {_offset(0, self.offset)} if it is the module's"
+        return Message.describe(self) | {"offset": words}
 
     def celsius(self, request: "ReadCjcOffset") -> float:
         """Tell the offset in degrees Celsius, as the answer to `request`: of the module or of a channel."""
@@ -84,7 +108,7 @@ class ReadCjcOffset(Request[CjcOffset]):
     section = "3.3.12"
     title = "CJC offset"
 
-    channel: layout.Byte
+    channel: _OffsetChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -119,8 +143,12 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     section = "3.3.13"
     title = "CJC offset"
 
-    channel: layout.Byte
+    channel: _OffsetChannel
     offset: layout.SignedWord
+
+    def describe(self, request: message.Message | None = None) -> dict[str, str]:  # noqa: ARG002 - it is a request
+        """Return the fields in words."""
+        return Message.describe(self) | {"offset": _offset(self.channel, self.offset)}
 
     @property
     def celsius(self) -> float:

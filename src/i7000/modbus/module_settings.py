@@ -7,6 +7,7 @@ from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
 from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
+from i7000.models import Firmware, Model
 from i7000.profile import Profile
 from i7000.settings import BaudRate, CharacterFormat, LineSettings
 
@@ -49,6 +50,11 @@ class ModuleName(Response):
 
     name: layout.Name
 
+    @property
+    def series(self) -> str | None:
+        """The series, ``7019``; None for other bytes than those of a series."""
+        return Model.series_of(self.name)
+
 
 class ReadModuleName(Request[ModuleName]):
     """Ask for the name of the series.
@@ -88,7 +94,7 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     section = "3.3.2"
     title = "module address"
 
-    new_address: layout.Byte
+    new_address: layout.NewAddress
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
         """Refuse an address that no module has."""
@@ -136,8 +142,8 @@ class CommunicationSettingsResult(Response):
     section = "3.3.4"
     title = "communication settings"
 
-    line_result: layout.Byte
-    protocol_result: layout.Byte
+    line_result: layout.ResultByte
+    protocol_result: layout.ResultByte
 
 
 @frozen
@@ -176,6 +182,11 @@ class FirmwareVersion(Response):
     major: layout.Byte
     minor: layout.Byte
     build: layout.Byte
+
+    @property
+    def firmware(self) -> Firmware | None:
+        """The version: B4.5 where the bytes are 0B, 04, 05 (assumption); None for bytes of no version."""
+        return Firmware.from_bytes(bytes((self.major, self.minor, self.build)))
 
 
 class ReadFirmwareVersion(Request[FirmwareVersion]):

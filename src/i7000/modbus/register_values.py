@@ -4,7 +4,7 @@ Laws: `counts_of` is the inverse of `values_of`, and refuses what the row cannot
 bytes in `wire` here: items come from a response, or from nowhere.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from enum import Enum
 from typing import Any
 
@@ -12,7 +12,8 @@ from i7000.arguments import as_tuple, check_int, check_type
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
 from i7000.modbus.module_settings import check_line
-from i7000.modbus.registers import Kind, Register
+from i7000.modbus.registers import Kind, Register, WordOrder
+from i7000.models import Firmware, Model
 from i7000.profile import Profile
 from i7000.readings import (
     Reading,
@@ -20,26 +21,14 @@ from i7000.readings import (
     decode_word,
     encode_engineering_word,
     encode_word,
+    signed,
 )
-from i7000.settings import CjcUpdate, Filter, LineSettings, ModbusDataFormat, Protocol
+from i7000.settings import LineSettings, ModbusDataFormat
 from i7000.type_codes import TypeCode
 
 __all__ = ["LogRecord", "readings", "words"]
 
 _RECORD_READINGS = 16
-_NAMED: dict[str, type[Enum]] = {
-    "cjc_update": CjcUpdate,
-    "protocol": Protocol,
-    "modbus_data_format": ModbusDataFormat,
-    "filter": Filter,
-    "type_code": TypeCode,
-    "module_type_code": TypeCode,
-}
-"""The rows whose numbers have names."""
-_CLEARED_BY: dict[str, int] = {"host_watchdog_timeout_count": 0, "host_watchdog_timed_out": 1}
-"""The rows that the module counts or sets, and what can be written to clear them."""
-_LOW_WORD_FIRST = ("firmware_version", "module_name")
-"""The 32-bit rows whose word order every map prints: the coil ``big_endian`` is not about them (E75)."""
 _NEARLY = 1e-6
 """Of a count: what a value in a unit may be off by, being a double."""
 
@@ -124,13 +113,12 @@ def values_of(  # noqa: PLR0913 - the row, and which values of it
         return tuple(
             LogRecord(
                 _readings(items[at : at + _RECORD_READINGS], 0, profile),
-                _long(items[at + _RECORD_READINGS : at + width], big_endian=big_endian),
+                _long(items[at + _RECORD_READINGS : at + width], big_endian=_is_big_endian(row, big_endian=big_endian)),
             )
             for at in range(0, len(items), width)
         )
     if row.kind is Kind.UINT32:
-        number = _long(items, big_endian=big_endian and row.name not in _LOW_WORD_FIRST)
-        return (number.to_bytes(4, "big") if row.name == "module_name" else number,)
+        return (_typed(row, _long(items, big_endian=_is_big_endian(row, big_endian=big_endian))),)
     return tuple(_single(row, item) for item in items)
 
 
@@ -146,28 +134,45 @@ def _long(words: tuple[int, ...], *, big_endian: bool) -> int:
     return high << 16 | low
 
 
+def _is_big_endian(row: Register, *, big_endian: bool) -> bool:
+    return big_endian and row.word_order is WordOrder.SELECTED
+
+
 def _single(row: Register, item: int) -> Any:  # noqa: ANN401
-    named = _NAMED.get(row.name)
-    if named is TypeCode:
-        return TypeCode.of(item)
-    if named:
-        try:
-            return named(item)
-        except ValueError:
-            allowed = f"{row.minimum}..{row.maximum}, not {item}"
-            raise DecodeError(Fault.VALUE, b"", field=row.name, allowed=allowed, section="3.4") from None
-    if row.name == "line_settings" and item <= 0xFF:
-        return LineSettings.from_byte(item)
-    if row.kind is Kind.BOOL:
-        return bool(item)
     if row.kind is Kind.INT8:
         if item > 0xFF:
             allowed = f"00 in the high byte, not {item >> 8:02X}"
             raise DecodeError(Fault.RESERVED, b"", field=row.name, allowed=allowed, section="3.4")
         item -= (item & 0x80) << 1
     if row.kind is Kind.INT16:
-        item -= (item & 0x8000) << 1
+        item = signed(item)
+    if row.values:
+        return _typed(row, item)
+    if row.kind is Kind.BOOL:
+        return bool(item)
     return item if row.scale in (None, 1) else item / _counts_per_unit(row)
+
+
+def _typed(row: Register, number: int) -> Any:  # noqa: ANN401
+    """The value that a number stands for; what is undefined stays the number, but for an enumeration of few codes."""
+    if row.values is None:
+        return number
+    read = _TYPED.get(row.values, row.values)
+    try:
+        value = read(number)
+    except ValueError:
+        allowed = f"{row.minimum}..{row.maximum}, not {number}"
+        raise DecodeError(Fault.VALUE, b"", field=row.name, allowed=allowed, section="3.4") from None
+    return number if value is None else value
+
+
+_TYPED: dict[type, Callable[[int], Any]] = {
+    TypeCode: TypeCode.of,
+    LineSettings: lambda number: LineSettings.from_byte(number) if number <= 0xFF else None,
+    Firmware: lambda number: None if number >> 24 else Firmware.from_bytes(number.to_bytes(3, "big")),
+    str: lambda number: Model.series_of(number.to_bytes(4, "big")),
+}
+"""How the types of values are read that are no enumerations of few codes."""
 
 
 def _counts_per_unit(row: Register) -> int:
@@ -181,28 +186,28 @@ def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) 
     counts = round(number * scale)
     low = 0 if row.minimum is None else row.minimum
     high = (0xFFFFFFFF if row.kind is Kind.UINT32 else 0xFFFF) if row.maximum is None else row.maximum
-    if row.name in _CLEARED_BY:
-        low = high = _CLEARED_BY[row.name]
+    if row.cleared_by is not None:
+        low = high = row.cleared_by
     if abs(counts - number * scale) > _NEARLY or not low <= counts <= high:
         unit = f" {row.unit}" if row.unit else ""
         allowed = f"{low / scale:g}..{high / scale:g}{unit} in steps of {1 / scale:g}" if low < high else f"{low}"
         raise EncodeError(row.name, value, allowed, "3.4")
-    if _NAMED.get(row.name) is TypeCode and not profile.supports(counts):
+    if row.values is TypeCode and not profile.supports(counts):
         allowed = f"{profile.supported_types()}: {profile.model.value}"
         raise EncodeError(row.name, f"{counts:02X}", allowed, "1.11")
-    if row.name == "line_settings":
+    if row.values is LineSettings:
         check_line(LineSettings.from_byte(counts), profile, "3.4")
     if row.kind is Kind.UINT32:
         words = (counts & 0xFFFF, counts >> 16)
-        return words[::-1] if big_endian else words
+        return words[::-1] if _is_big_endian(row, big_endian=big_endian) else words
     return (counts & (0xFF if row.kind is Kind.INT8 else 0xFFFF),)
 
 
 def _number_of(row: Register, value: Any) -> int | float:  # noqa: ANN401
     """Tell the number that a value is or stands for; bools are for coils, names for the rows that have them."""
-    if isinstance(value, LineSettings) and row.name == "line_settings":
-        return value.byte
-    own = isinstance(value, _NAMED.get(row.name, ()))
+    if isinstance(value, LineSettings | Firmware) and isinstance(value, row.values or ()):
+        return value.byte if isinstance(value, LineSettings) else int.from_bytes(bytes(value), "big")
+    own = isinstance(value, Enum) and isinstance(value, row.values or ())
     number = value.value if own else value
     if (
         not isinstance(number, int | float)

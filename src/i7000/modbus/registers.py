@@ -4,18 +4,22 @@ Laws: a row of a map is computed here from what the model has; the nine maps as 
 thing has one name in every map, and a row for each of its numbers where the manual gives it two (30001 and 40001).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from enum import Enum
+from functools import partial
+from typing import Any
 
-from attrs import evolve
+from attrs import evolve, field
 
+from i7000 import describe
 from i7000.frozen import frozen
 from i7000.modbus.cold_junction import OFFSET_LIMIT
-from i7000.models import CONFIGURABLE, Gates, Model, gates, series
+from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates, series
 from i7000.profile import Profile
-from i7000.settings import Protocol
+from i7000.settings import CjcUpdate, Filter, LineSettings, LogCommand, ModbusDataFormat, Protocol, is_int
+from i7000.type_codes import TypeCode
 
-__all__ = ["Access", "Area", "Kind", "Register", "rows"]
+__all__ = ["Access", "Area", "Kind", "Register", "WordOrder", "rows"]
 
 
 class Area(Enum):
@@ -48,11 +52,11 @@ class Kind(Enum):
     INT8 = "int8"
     """The low byte in two's complement, the high byte zero (E62)."""
     UINT32 = "uint32"
-    """Two registers, the low word first; where clock and log are concerned, as the coil ``big_endian`` says (E75)."""
+    """Two registers, in the `Register.word_order`."""
     CODE = "code"
     BITS = "bits"
     RECORD = "record"
-    """16 readings and a time stamp of two registers."""
+    """16 readings and a time stamp of two registers, in the `Register.word_order`."""
 
 
 for _kind in Kind:
@@ -65,6 +69,15 @@ class Access(Enum):
     READ = "R"
     READ_WRITE = "R/W"
     WRITE = "W"
+
+
+class WordOrder(Enum):
+    """Which of the two words of 32 bits comes first (E75)."""
+
+    LOW_FIRST = "low"
+    """The low word, whatever the module is set to."""
+    SELECTED = "selected"
+    """The word that the coil ``big_endian`` selects: the low one unless it is set."""
 
 
 @frozen
@@ -80,12 +93,24 @@ class Register:
     area: Area
     address: int
     count: int = 1
-    access: Access = Access.READ_WRITE
-    kind: Kind = Kind.UINT16
-    unit: str | None = None
-    scale: float | None = None
-    minimum: int | None = None
-    maximum: int | None = None
+    access: Access = field(default=Access.READ_WRITE, kw_only=True)
+    kind: Kind = field(default=Kind.UINT16, kw_only=True)
+    unit: str | None = field(default=None, kw_only=True)
+    scale: float | None = field(default=None, kw_only=True)
+    minimum: int | None = field(default=None, kw_only=True)
+    maximum: int | None = field(default=None, kw_only=True)
+    values: Any = field(default=None, kw_only=True)
+    """The type of its values where they are more than numbers and bits: an enumeration, `LineSettings`, `Firmware`."""
+    labels: tuple[str, ...] = field(default=(), kw_only=True)
+    """What its values mean, from 0 on, where neither their type nor yes and no says it."""
+    cleared_by: int | None = field(default=None, kw_only=True)
+    """What can be written to a row that the module counts or sets itself, to clear it; nothing else can."""
+    word_order: WordOrder | None = field(default=None, kw_only=True)
+    """Of kinds that have numbers of 32 bits."""
+    ends_when_read: bool = field(default=False, kw_only=True)
+    """Whether reading it changes it: the reset status tells the first reader only."""
+    words: Callable[[Any], str] = field(default=describe.value, kw_only=True, repr=False)
+    """The value in words, without its unit: see `describe`."""
 
     @property
     def number(self) -> str:
@@ -96,6 +121,12 @@ class Register:
     def last_number(self) -> str:
         """The manual's number of the last item."""
         return f"{self.area.value}{self.address + self.count:04d}"
+
+    def describe(self, value: Any) -> str:  # noqa: ANN401 - of any row
+        """Return a value of the row, or of one of its channels, in words and with its unit."""
+        if self.labels and is_int(int(value), 0, len(self.labels) - 1):
+            return self.labels[int(value)]
+        return f"{self.words(value)} {self.unit}" if self.unit else self.words(value)
 
 
 OPEN_WIRE: Gates = gates(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
@@ -133,76 +164,92 @@ def _printed_channels(profile: Profile) -> int:
 
 
 def _inputs(profile: Profile) -> Iterator[Register]:
-    model, read, words = profile.model, Access.READ, Area.INPUT_REGISTER
+    model, words = profile.model, Area.INPUT_REGISTER
+    read = partial(Register, access=Access.READ)
     if "3.1" not in profile.refused:
-        yield Register("range_status", Area.DISCRETE_INPUT, 128, model.channels, read, Kind.BOOL, None, None, 0, 1)
-    yield Register("analog_input", words, 0, _printed_channels(profile), read, Kind.READING)
+        yield read("range_status", Area.DISCRETE_INPUT, 128, model.channels, kind=Kind.BOOL, minimum=0, maximum=1)
+    yield read("analog_input", words, 0, _printed_channels(profile), kind=Kind.READING)
     if model is Model.M_7018_16:
-        yield Register("temperature", words, 32, 16, read, Kind.INT16, "degC", 1)
+        yield read("temperature", words, 32, 16, kind=Kind.INT16, unit="degC", scale=1)
     if model.cjc:
-        yield Register("cjc_temperature", words, 128, 1, read, Kind.INT16, "degC", 0.01)
+        yield read("cjc_temperature", words, 128, kind=Kind.INT16, unit="degC", scale=0.01)
     if model is Model.M_7017mC_16:
-        yield Register("log_records", words, 1000, Kind.RECORD.width * _RECORDS, read, Kind.RECORD)
+        count = Kind.RECORD.width * _RECORDS
+        yield read("log_records", words, 1000, count, kind=Kind.RECORD, word_order=WordOrder.SELECTED)
+
+
+def _holding(name: str, address: int, count: int = 1, **facts: Any) -> Register:  # noqa: ANN401 - fields of `Register`
+    return Register(name, Area.HOLDING_REGISTER, address, count, **facts)
+
+
+_TYPE_CODE = partial(
+    _holding, kind=Kind.CODE, minimum=0, maximum=_LAST_TYPE_CODE, values=TypeCode, words=describe.type_code
+)
+_OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=-OFFSET_LIMIT, maximum=OFFSET_LIMIT)
+_TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=-128, maximum=127)
+_MASK = partial(_holding, kind=Kind.BITS, minimum=0, words=describe.mask)
 
 
 def _channels(profile: Profile) -> Iterator[Register]:
     """What each channel has a holding register for."""
-    model, write, words = profile.model, Access.READ_WRITE, Area.HOLDING_REGISTER
-    channels = _printed_channels(profile)
+    model, channels = profile.model, _printed_channels(profile)
     if profile.has(CONFIGURABLE):
-        yield Register("type_code", words, 256, channels, write, Kind.CODE, None, None, 0, _LAST_TYPE_CODE)
+        yield _TYPE_CODE("type_code", 256, channels)
     if model.series == "7019":
-        yield Register("temperature_offset", words, 288, channels, write, Kind.INT16, "degC", 0.1, -128, 127)
-        yield Register("cjc_offset", words, 352, channels, write, Kind.INT16, "degC", 0.01, -OFFSET_LIMIT, OFFSET_LIMIT)
+        yield _TENTHS("temperature_offset", 288, channels, kind=Kind.INT16)
+        yield _OFFSET("cjc_offset", 352, channels)
     if model.series == "7018":
-        yield Register("cjc_offset", words, 352, channels, write, Kind.INT8, "degC", 0.1, -128, 127)
+        yield _TENTHS("cjc_offset", 352, channels, kind=Kind.INT8)
 
 
 def _module(profile: Profile) -> Iterator[Register]:
     """What the module has a holding register for."""
-    model, read, write, words = profile.model, Access.READ, Access.READ_WRITE, Area.HOLDING_REGISTER
-    yield Register("firmware_version", words, 480, 2, read, Kind.UINT32)
-    yield Register("module_name", words, 482, 2, read, Kind.UINT32)
-    yield Register("module_address", words, 484, 1, write, Kind.UINT16, None, None, 1, 247)
-    yield Register("line_settings", words, 485, 1, write, Kind.BITS, None, None, 0x03, 0xCA)
+    model = profile.model
+    read_32 = partial(_holding, count=2, access=Access.READ, kind=Kind.UINT32, word_order=WordOrder.LOW_FIRST)
+    yield read_32("firmware_version", 480, values=Firmware, words=describe.firmware)
+    yield read_32("module_name", 482, values=str, words=describe.series)
+    yield _holding("module_address", 484, minimum=1, maximum=247, words=describe.hex_byte)
+    yield _holding(
+        "line_settings", 485, kind=Kind.BITS, minimum=0x03, maximum=0xCA,
+        values=LineSettings, words=describe.line_settings,
+    )  # fmt: skip
     if model.type_by_configuration:
-        yield Register("module_type_code", words, 486, 1, write, Kind.CODE, None, None, 0, _LAST_TYPE_CODE)
-    yield Register("response_delay", words, 487, 1, write, Kind.UINT16, "ms", 1, 0, 30)
-    yield Register("host_watchdog_timeout", words, 488, 1, write, Kind.UINT16, "s", 0.1, 0, 255)
-    mask = (1 << min(_printed_channels(profile), 16)) - 1
-    yield Register("channel_mask", words, 489, 1, write, Kind.BITS, None, None, 0, mask)
+        yield _TYPE_CODE("module_type_code", 486)
+    yield _holding("response_delay", 487, unit="ms", scale=1, minimum=0, maximum=30)
+    yield _holding("host_watchdog_timeout", 488, unit="s", scale=0.1, minimum=0, maximum=255)
+    yield _MASK("channel_mask", 489, maximum=(1 << min(_printed_channels(profile), 16)) - 1)
     if model.cjc:
-        yield Register("module_cjc_offset", words, 490, 1, write, Kind.INT16, "degC", 0.01, -OFFSET_LIMIT, OFFSET_LIMIT)
-    yield Register("host_watchdog_timeout_count", words, 491)
+        yield _OFFSET("module_cjc_offset", 490)
+    yield _holding("host_watchdog_timeout_count", 491, cleared_by=0)
     if model.series == "7019":
-        yield Register("cjc_update", words, 492, 1, write, Kind.CODE, None, None, 0, 2)
+        yield _holding("cjc_update", 492, kind=Kind.CODE, minimum=0, maximum=2, values=CjcUpdate)
     if model is Model.M_7017Z:
-        yield Register("channel_mask_high", words, 496, 1, write, Kind.BITS, None, None, 0, 0xF)
+        yield _MASK("channel_mask_high", 496, maximum=0xF, words=lambda mask: describe.mask(mask, 16))
 
 
 def _coils(profile: Profile) -> Iterator[Register]:  # noqa: C901 - a list
     model = profile.model
 
-    def coil(name: str, address: int, access: Access = Access.READ_WRITE, minimum: int = 0) -> Register:
-        return Register(name, Area.COIL, address, 1, access, Kind.BOOL, None, None, minimum, 1)
+    def coil(name: str, address: int, minimum: int = 0, **facts: Any) -> Register:  # noqa: ANN401 - of `Register`
+        return Register(name, Area.COIL, address, kind=Kind.BOOL, minimum=minimum, maximum=1, **facts)
 
-    yield coil("protocol", 256)
+    yield coil("protocol", 256, values=Protocol)
     if model is not Model.M_7017mC_16:
-        yield coil("filter", 258)
+        yield coil("filter", 258, values=Filter)
     if model.cjc or model is Model.M_7017Z:
         yield coil("host_watchdog_mode", 259)
     yield coil("host_watchdog_enabled", 260)
     if model.cjc:
         yield coil("cjc_enabled", 267)
-    yield coil("modbus_data_format", 268)
-    yield coil("host_watchdog_timed_out", 269)
+    yield coil("modbus_data_format", 268, values=ModbusDataFormat)
+    yield coil("host_watchdog_timed_out", 269, cleared_by=1)
     if model.fast_mode:
         yield coil("fast_mode", 270)
     if model.series == "7019" or model is Model.M_7017mC_16:
-        yield coil("load_factory_calibration", 271, Access.WRITE, 1)
-    yield coil("reset_status", 272, Access.READ)
+        yield coil("load_factory_calibration", 271, minimum=1, access=Access.WRITE)
+    yield coil("reset_status", 272, access=Access.READ, ends_when_read=True)
     if model is Model.M_7019R:
-        yield coil("sampling_rate", 273)
+        yield coil("sampling_rate", 273, labels=("10 Hz", "8 Hz"))
     if profile.has(OPEN_WIRE):
         yield coil("open_wire_detection", 275)
     if model is Model.M_7017Z:
@@ -217,15 +264,16 @@ _PERIOD = (("hour", "h", 24), ("minute", "min", 59), ("second", "s", 59))
 
 def _logger() -> Iterator[Register]:
     """The clock and the data logger of the M-7017mC-16."""
-    read, write, words = Access.READ, Access.READ_WRITE, Area.HOLDING_REGISTER
-    yield Register("rtc_epoch", words, 16, 2, write, Kind.UINT32, "s", 1)
-    yield Register("log_last_index", words, 870, 2, read, Kind.UINT32)
-    yield Register("log_read_index", words, 872, 2, write, Kind.UINT32)
-    yield Register("log_status", words, 874, 1, read, Kind.CODE, None, None, 0, 1)
-    yield Register("log_command", words, 875, 1, write, Kind.CODE, None, None, 0, 2)
-    yield Register("log_overwrite", words, 876, 1, write, Kind.CODE, None, None, 0, 1)
+    long = partial(_holding, count=2, kind=Kind.UINT32, word_order=WordOrder.SELECTED)
+    code = partial(_holding, kind=Kind.CODE, minimum=0)
+    yield long("rtc_epoch", 16, unit="s", scale=1)
+    yield long("log_last_index", 870, access=Access.READ)
+    yield long("log_read_index", 872)
+    yield code("log_status", 874, maximum=1, access=Access.READ, labels=("stopped", "running"))
+    yield code("log_command", 875, maximum=2, values=LogCommand)
+    yield code("log_overwrite", 876, maximum=1, labels=("stop", "go on writing"))
     for at, (part, unit, most) in enumerate(_PERIOD):
-        yield Register(f"log_period_{part}", words, 877 + at, 1, write, Kind.UINT16, unit, 1, 0, most)
+        yield _holding(f"log_period_{part}", 877 + at, unit=unit, scale=1, minimum=0, maximum=most)
     for name, address in (("rtc", 864), ("log_start", 880), ("log_end", 886)):
         for at, (part, low, high) in enumerate(_DATE):
-            yield Register(f"{name}_{part}", words, address + at, 1, write, Kind.UINT16, None, None, low, high)
+            yield _holding(f"{name}_{part}", address + at, minimum=low, maximum=high)

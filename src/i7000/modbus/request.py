@@ -5,10 +5,10 @@ exception, is a value too: `ExceptionResponse`.
 """
 
 from enum import IntEnum
-from typing import ClassVar, Generic, TypeVar
+from typing import Annotated, ClassVar, Generic, TypeVar
 
 from i7000 import message
-from i7000.modbus.layout import Address, Byte, ExceptionFunction, Layout
+from i7000.modbus.layout import Address, ExceptionFunction, Layout, ResultByte, byte
 
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
@@ -87,7 +87,12 @@ class SettingResult(Response):
 
     _instead = "one of the results, such as ModuleAddressResult"
 
-    result: Byte
+    result: ResultByte
+
+
+def _exception(code: int) -> str:
+    known = {it.value: it.name.lower().replace("_", " ") for it in ExceptionCode}
+    return f"{code:02X}, {known.get(code, 'not defined')}"
 
 
 @message.frozen
@@ -105,4 +110,4 @@ class ExceptionResponse(Response):
 
     function: ExceptionFunction
     """The function of the request, without the bit that makes it an exception."""
-    exception_code: Byte
+    exception_code: Annotated[int, byte(_exception)]

@@ -5,28 +5,18 @@ can be written, `decode` gives it.
 """
 
 from collections.abc import Callable, Mapping
-from enum import Enum
 from typing import Any
 
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import CjcUpdate, Filter, ModbusDataFormat, Profile, Protocol, Reading
+from i7000 import Firmware, LineSettings, Model, Profile, Reading, TypeCode
 from i7000.modbus import Access, Kind, LogRecord, Plan, Register, RegisterMap
 from i7000.strategies.modbus.messages import profiles
-from i7000.strategies.vocabulary import line_settings, supported_types, word_readings
+from i7000.strategies.vocabulary import firmwares, line_settings, supported_types, word_readings
 
 __all__ = ["plans", "register_items", "register_maps", "register_values", "registers"]
 
-_CHOICES: Mapping[str, type[Enum] | tuple[int, ...]] = {
-    "cjc_update": CjcUpdate,
-    "protocol": Protocol,
-    "modbus_data_format": ModbusDataFormat,
-    "filter": Filter,
-    "host_watchdog_timeout_count": (0,),
-    "host_watchdog_timed_out": (True,),
-}
-"""What can be written to rows of few values; the last two can only be cleared."""
 _HIGHEST = {Kind.UINT32: 0xFFFFFFFF, Kind.INT16: 0x7FFF}
 
 
@@ -92,14 +82,12 @@ def _items(row: Register, profile: Profile) -> int:
 
 
 def _single(row: Register, profile: Profile) -> SearchStrategy[Any]:
-    if row.name in ("type_code", "module_type_code"):
+    if row.cleared_by is not None:
+        return st.just(bool(row.cleared_by) if row.kind is Kind.BOOL else row.cleared_by)
+    if row.values is TypeCode:
         return st.sampled_from(supported_types(profile))
-    if row.name == "line_settings":
-        return line_settings(profile)
-    if row.name in _CHOICES:
-        return st.sampled_from(_CHOICES[row.name])
-    if row.name == "module_name":
-        return st.sampled_from((b"\x00\x70\x17\x00", b"\x00\x70\x18\x00", b"\x00\x70\x19\x00"))
+    if row.values:
+        return _TYPED[row.values](profile) if row.values in _TYPED else st.sampled_from(row.values)
     if row.kind is Kind.BOOL:
         return st.just(True) if row.minimum else st.booleans()
     signed = row.kind is Kind.INT16
@@ -107,6 +95,14 @@ def _single(row: Register, profile: Profile) -> SearchStrategy[Any]:
     high = _HIGHEST.get(row.kind, 0xFFFF) if row.maximum is None else row.maximum
     counts = st.integers(low, high)
     return counts if row.scale in (None, 1) else counts.map(lambda count: count / round(1 / (row.scale or 1)))
+
+
+_TYPED: Mapping[Any, Callable[[Profile], SearchStrategy[Any]]] = {
+    LineSettings: line_settings,
+    Firmware: lambda _: firmwares(),
+    str: lambda _: st.sampled_from(sorted({model.series for model in Model})),
+}
+"""The strategies of types of values that are no enumerations."""
 
 
 def _records() -> SearchStrategy[LogRecord]:

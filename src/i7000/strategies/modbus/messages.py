@@ -12,7 +12,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import CjcUpdate, EncodeError, Model, Profile, Protocol, TypeCode
+from i7000 import EncodeError, Fault, LineSettings, Model, Profile, Protocol, TypeCode
 from i7000.modbus import (
     BROADCAST,
     REQUESTS,
@@ -188,51 +188,34 @@ def _settable(  # noqa: PLR0911 - a table
     return None
 
 
-_SPANS: dict[Any, tuple[int, int]] = {
-    layout.Byte: (0, 0xFF),
-    layout.Word: (0, 0xFFFF),
-    layout.SignedWord: (-0x8000, 0x7FFF),
-    layout.ExceptionFunction: (1, 0x7F),
+_TYPES: dict[Any, SearchStrategy[Any]] = {
+    TypeCode: st.sampled_from(TypeCode) | st.integers(0, 0xFF).map(TypeCode.of),
+    LineSettings: line_settings(),
 }
-_COUNTS: dict[Any, int] = {
-    layout.BitCount: layout.MOST_BITS,
-    layout.WordCount: layout.MOST_WORDS,
-    layout.WrittenBitCount: layout.MOST_WRITTEN_BITS,
-    layout.WrittenWordCount: layout.MOST_WRITTEN_WORDS,
-}
-_BITS: dict[Any, int] = {layout.Bits: layout.MOST_BITS, layout.WrittenBits: layout.MOST_WRITTEN_BITS}
-_WORDS: dict[Any, int] = {layout.Words: layout.MOST_WORDS, layout.WrittenWords: layout.MOST_WRITTEN_WORDS}
-_CHOICES: dict[Any, SearchStrategy[Any]] = {
-    layout.Coil: st.booleans(),
-    layout.Flag: st.booleans(),
-    layout.ProtocolByte: st.sampled_from(Protocol),
-    layout.UpdateByte: st.sampled_from(CjcUpdate),
-    layout.TypeCodeByte: st.sampled_from(TypeCode) | st.integers(0, 0xFF).map(TypeCode.of),
-    layout.LineByte: line_settings(),
-    layout.Name: st.binary(min_size=4, max_size=4),
-}
-"""What the annotations of fields stand for; `Address` and `Mask` depend on more."""
+"""The values of types that are no enumeration of all that a field can be."""
 
 
 def _part(  # noqa: PLR0911 - a table
     kind: type[Message], attribute: "Attribute[Any]", profile: Profile, values: dict[str, Any]
 ) -> SearchStrategy[Any]:
     """Make all that a field can be beside the `values` of others."""
-    it = attribute.type
-    if it is layout.Address:
+    item: layout.Item = cast("Any", attribute.type).__metadata__[0]
+    if attribute.type is layout.Address:
         return st.sampled_from((*_ADDRESSES, *[BROADCAST] * 25)) if _can_be_broadcast(kind) else st.integers(1, 247)
-    if it is layout.Mask:
+    if attribute.type is layout.Mask:
         return st.integers(0, 16**profile.mask_digits - 1)
-    if it in _SPANS:
-        return st.integers(*_SPANS[it])
-    if it in _CHOICES:
-        return _CHOICES[it]
+    if item.values in _TYPES:
+        return _TYPES[item.values]
+    if item.values:
+        return st.sampled_from((False, True) if item.values is bool else item.values)
     room = _ALL_ADDRESSES - values.get("start", 0)
-    if it in _COUNTS:
-        return _count(min(_COUNTS[it], room))
-    if it in _BITS:
-        return _bits(st.just(values["count"]) if "count" in values else _count(min(_BITS[it], room)))
-    return _words(st.just(values["count"]) if "count" in values else _count(min(_WORDS[it], room)))
+    if item.most:
+        counts = st.just(values["count"]) if "count" in values else _count(min(item.most, room))
+        return _bits(counts) if item.accepts((True,)) else _words(counts)
+    if item.bounds:
+        low, high = item.bounds
+        return _count(min(high, room)) if item.fault is Fault.RANGE else st.integers(low, high)
+    return st.binary(min_size=4, max_size=4)  # a name
 
 
 def _can_be_broadcast(kind: type[Message]) -> bool:
