@@ -78,7 +78,8 @@ def test_the_init_switch_is_set_where_it_is_said() -> None:
         ("i-7018@b2.9".upper(), "model", Model.I_7018),
         ("m-7019r", "model", Model.M_7019R),
         ("M-7019R,address=0x0a", "address", 0x0A),
-        ("M-7019R, address = ff", "address", 0xFF),
+        ("M-7019R, address = ffh", "address", 0xFF),
+        ("M-7019R,address=10", "address", 10),
         ("M-7019R,type=K", "type_codes", (TypeCode.K,) * 8),
         ("M-7019R,type=K/J/T/05/V_10/ma_4-20/0x0E/B", "type_codes",
          (TypeCode.K, TypeCode.J, TypeCode.T, TypeCode.V_2_5, TypeCode.V_10, TypeCode.MA_4_20, TypeCode.J, TypeCode.B)),
@@ -93,10 +94,12 @@ def test_the_init_switch_is_set_where_it_is_said() -> None:
         ("M-7019R,response_delay=30", "response_delay", 30),
         ("M-7017Z,protocol=rtu,single_ended=true", "single_ended", True),
         ("M-7019R,mask=0x3F", "channel_mask", 0x3F),
-        ("M-7019R,mask=0/1/3", "channel_mask", 0b1011),
-        ("M-7019R,mask=0-2/7", "channel_mask", 0b10000111),
-        ("M-7019R,mask=3", "channel_mask", 0b1000),
-        ("M-7017Z,mask=all", "channel_mask", 0xFFFFF),
+        ("M-7019R,mask=3Fh", "channel_mask", 0x3F),
+        ("M-7019R,mask=3", "channel_mask", 0b11),
+        ("M-7019R,channels=0/1/3", "channel_mask", 0b1011),
+        ("M-7019R,channels=0-2/7", "channel_mask", 0b10000111),
+        ("M-7019R,channels=3", "channel_mask", 0b1000),
+        ("M-7017Z,channels=all", "channel_mask", 0xFFFFF),
         ("M-7019R,name=BOILER", "name", "BOILER"),
         ("M-7019R,open_wire_detection=false", "open_wire_detection", False),
         ("M-7019R,cjc_enabled=off", "cjc_enabled", False),
@@ -140,7 +143,9 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
         ("M-7019R,checksum", "'checksum' is not name=value"),
         ("M-7019R,adress=2", "a module has no 'adress': address, type, protocol"),
         ("M-7019R,type=K,type=J", "type is given twice"),
-        ("M-7019R,address=100", "address: '100' is no byte"),
+        ("M-7019R,address=300", "address cannot be 300"),
+        ("M-7019R,address=1A", "address: '1A' has hex digits: write 0x1A or 1Ah"),
+        ("M-7019R,address=x", "address: 'x' is not a number: decimal, or hex as 0x1A or 1Ah"),
         ("M-7019R,type=Q", "type: 'Q' is no type"),
         ("M-7019R,type=mixed", "type: type FF of 'mixed' is not defined"),
         ("M-7019R,type=K/J", "type: 'K/J' has 2 values: 1 or 8 with / between, M-7019R"),
@@ -162,11 +167,13 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
         ("I-7018,modbus_format=hex", "I-7018 has no modbus_format: M-7000 series only"),
         ("I-7018,response_delay=1", "I-7018 has no response_delay: M-7000 series only"),
         ("M-7019R,response_delay=31", "response_delay cannot be 31: 0..30"),
-        ("M-7019R,response_delay=1ms", "response_delay: '1ms' is no number"),
+        ("M-7019R,response_delay=1ms", "response_delay: '1ms' is not a number"),
         ("M-7019R,single_ended=true", "single_ended cannot be True: 7017Z only"),
         ("M-7019R,mask=0x1FF", "channel_mask cannot be 511: 0..255"),
-        ("M-7019R,mask=8", "mask: there is no channel 8: 0..7"),
-        ("M-7019R,mask=3F", "mask: '3F' is no channel: 0..7, a range as 0-7, or all"),
+        ("M-7019R,channels=8", "channels: there is no channel 8: 0..7"),
+        ("M-7019R,channels=3F", "channels: '3F' is no channel: 0..7, a range as 0-7, or all"),
+        ("M-7019R,mask=3F", "mask: '3F' has hex digits: write 0x3F or 3Fh"),
+        ("M-7019R,mask=1,channels=0", "give mask or channels: they are the same"),
         ("M-7019R,name=", "name cannot be ''"),
         ("M-7019R,name=TOOLONG", "name cannot be 'TOOLONG'"),
         ("I-7018,open_wire_detection=true", "I-7018 has no open_wire_detection: models that notice"),
@@ -199,7 +206,20 @@ def test_more_modules_than_addresses_are_refused() -> None:
         read_module("I-7018", 0x100)
 
 
-NAMES = ("address", "type", "protocol", "baud", "format", "filter", "mask", "cjc_offset", "name", "x", "single_ended")
+NAMES = (
+    "address",
+    "type",
+    "protocol",
+    "baud",
+    "format",
+    "filter",
+    "mask",
+    "channels",
+    "cjc_offset",
+    "name",
+    "x",
+    "single_ended",
+)
 WORDS = ("02", "K", "K/J", "rtu", "9600", "hex", "50hz", "0x3F", "0/1", "0.5", "1e400", "true", "-1", "")
 SAID = st.builds("{}={}".format, st.sampled_from(NAMES), st.sampled_from(WORDS) | st.text(max_size=4))
 
@@ -223,7 +243,7 @@ def test_any_text_is_a_module_or_refused(text: str) -> None:
 
 # --- signals ----------------------------------------------------------------------------------------------------------
 
-VOLTS, AMPERES, DEGREES = factory(Model.I_7017), module("M-7019R,address=0A,type=MA_4_20"), module("I-7018,type=K")
+VOLTS, AMPERES, DEGREES = factory(Model.I_7017), module("M-7019R,address=0Ah,type=MA_4_20"), module("I-7018,type=K")
 
 
 def signals(*texts: str, eeprom: Eeprom = VOLTS) -> Sources:
@@ -306,7 +326,7 @@ def test_later_ones_count() -> None:
 
 
 def test_an_address_selects_the_modules_that_have_it() -> None:
-    found = read_signals(["0A:0=open", "1=open"], [VOLTS, AMPERES, AMPERES])
+    found = read_signals(["10:0=open", "1=open"], [VOLTS, AMPERES, AMPERES])
 
     assert [sources.channels[0] is OPEN for sources in found] == [False, True, True]
     assert [sources.channels[1] is OPEN for sources in found] == [True, True, True]
@@ -331,8 +351,8 @@ def test_the_same_seed_has_the_same_noise() -> None:
     [
         ("", "'': it is not [ADDRESS:]CHANNELS=SOURCE"),
         ("0:1.5V", "'0:1.5V': it is not [ADDRESS:]CHANNELS=SOURCE"),
-        ("02:0=1V", "'02:0=1V': no module has the address 02: 01"),
-        ("xyz:0=1V", "'xyz:0=1V': 'xyz' is no byte"),
+        ("02:0=1V", "'02:0=1V': no module has the address 02, only 01"),
+        ("xyz:0=1V", "'xyz:0=1V': 'xyz' is not a number"),
         ("=1V", "'=1V': I-7017 at 01: '' is no channel: 0..7, a range as 0-7, or all; or cjc"),
         ("8=1V", "'8=1V': I-7017 at 01: there is no channel 8: 0..7; or cjc"),
         ("3-1=1V", "'3-1=1V': I-7017 at 01: there is no channel 3-1: 0..7"),

@@ -27,6 +27,8 @@ RINGS = {
     "host": 3,
     "strategies": 4,
     "cli": 4,
+    "spec": 4,
+    "__main__": 4,
     "examples": 4,
     "simulator": 4,
     "conformance": 4,

@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from random import Random
 from time import monotonic
 
@@ -265,16 +266,31 @@ def test_a_terminal_that_is_gone_is_no_other_error(monkeypatch: pytest.MonkeyPat
         os.dup2(os.open(os.devnull, os.O_WRONLY), full.fileno())
 
 
+@pytest.mark.parametrize("module", ["i7000_cli", "i7000"])
 def test_the_program_can_be_run_as_a_module(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], module: str
 ) -> None:
     monkeypatch.setattr(sys, "argv", ["i7000", "encode", "ReadConfiguration", "address=1"])
     monkeypatch.delitem(sys.modules, "i7000_cli")
     with pytest.raises(SystemExit) as ended:
-        runpy.run_module("i7000_cli", run_name="__main__")
+        runpy.run_module(module, run_name="__main__")
 
     assert ended.value.code == 0
     assert capsys.readouterr().out.startswith("$012")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_is_installed_for_a_shell(
+    shell: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    for name in ("HOME", "USERPROFILE"):
+        monkeypatch.setenv(name, str(tmp_path))
+
+    assert app.run(["--install-completion", shell]) == 0
+    installed, _ = capsys.readouterr().out.split(" is read by ")
+    assert "decode" in Path(installed).read_text(encoding="utf-8")
+    assert Path(installed).is_relative_to(tmp_path)
 
 
 # --- hanging up -------------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from typing import Literal
 
 from cyclopts import App, CycloptsError
 
@@ -27,6 +28,14 @@ app = App(
 
 for _command in (decode, encode, commands, registers, simulate):
     app.command(_command)
+
+
+@app.command(name="--install-completion")
+def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
+    """Complete commands and options in a shell, from its next start on. Example: `i7000 --install-completion bash`."""
+    file = app.install_completion(shell=shell)
+    Printer().record({}, [[(f"{file} is read by {shell} from its next start on", "")]])
+    return 0
 
 
 def run(arguments: Sequence[str] | None) -> int:

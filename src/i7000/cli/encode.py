@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from i7000 import EncodeError
-from i7000.cli.message import DCON, MODBUS, frame_text, make
+from i7000.cli.message import MODBUS, frame_text, make, refusal_words, registers
 from i7000.cli.message import encode as encode_message
 from i7000.cli.options import UNKNOWN, Json, Module, ProtocolName
 from i7000.cli.text import Line, Printer
@@ -24,16 +24,22 @@ def encode(
 ) -> int:
     """Write a frame: as text, then in hex; by Modbus in hex.
 
-    * Numbers are decimal, or hex as `0x3A`; truth values `true` or `false`; choices a name or a number: `update=once`.
-    * Types are hex codes or names: `type_code=0F`, `type_code=K`, `type_code=mixed`.
+    * Numbers are decimal, or hex as `0x3A` or `3Ah`; truth values `true` or `false`; choices a name or a number:
+      `update=once`.
+    * What has a unit is given in it, as `i7000 decode` prints it: `offset=-0.5` (degC), `timeout=2.5` (s). A number in
+      hex is the counts that the frame has: `offset=0x32` is 0.5 degC.
+    * Types are the manual's two hex digits or names: `type_code=0F`, `type_code=K`, `type_code=mixed`.
     * A mask is a number or a list of channels: `mask=0x3A` or `channels=1,3,4,5`.
-    * `line_settings` is a byte in hex, `line_settings=86`, or its parts: `baud_rate=9600 character_format=E81`.
-    * `report_settings` is a byte in hex, `report_settings=40`, or its parts: `data_format=hex checksum=true
+    * `line_settings` is a byte, `line_settings=86h`, or its parts: `baud_rate=9600 character_format=E81`.
+    * `report_settings` is a byte, `report_settings=40h`, or its parts: `data_format=hex checksum=true
       fast_mode=false filter=reject_50_hz`. Parts that are not given are those of the byte, or the factory default.
     * Lists have commas between: `values=+01.500,-01.500`, by Modbus `values=1,0x1F` or `values=true,false`.
+    * By Modbus, `start`, `coil` and `register` are addresses as frames have them: 488 for 40489. With `--model` they
+      can be names, `register=host_watchdog_timeout value=2.5`, values have the units of `i7000 registers`, and what the
+      model does not have is refused. Without it, or with `--force`, values are the numbers that the frame has.
 
     Examples: `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
-    `i7000 encode ReadInputRegisters address=1 start=0 count=8 --protocol rtu`
+    `i7000 encode ReadInputRegisters address=1 start=analog_input --model M-7019R --protocol rtu`
 
     Exit code: 0; 1 if the model, or every model, refuses it; 2 for wrong usage.
 
@@ -42,14 +48,11 @@ def encode(
     known = module.known(protocol)
     printer = Printer(json=json)
     try:
-        message = make(name, fields, MODBUS if protocol == "rtu" else DCON)
-    except EncodeError as refusal:
-        printer.error(str(refusal))
-        return 1
-    try:
+        message = make(name, fields, MODBUS, registers(known), force=force) if protocol == "rtu" else make(name, fields)
         frame = encode_message(message, known, force=force)
     except EncodeError as refusal:
-        printer.error(refusal if known.model else f"no model takes it; the first says: {refusal}")
+        words = refusal_words(refusal, name, fields)
+        printer.error(words if known.model or refusal.reason else f"no model takes it: {words}")
         return 1
     text = frame_text(message, frame)
     record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}

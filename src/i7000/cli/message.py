@@ -1,23 +1,28 @@
 """``NAME field=value ...`` -> a message, and the frame of it.
 
-Notation: numbers are decimal, or hex as 0x3A; types and bytes of settings are hex, with or without 0x; a mask can also
-be given as its channels, and the bytes CC and FF by their parts.
+Notation: numbers are decimal, or hex as 0x3A or 3Ah; what has a unit is in that unit, or in counts where it is hex. A
+mask can also be given as its channels, and the bytes CC and FF by their parts. What stands for coils and registers is
+read in `by_register` if the model is known.
 """
 
 from collections.abc import Callable, Sequence
 from enum import Enum
+from functools import partial
 from typing import Any, get_args
 
 from attrs import evolve
 
 from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
+from i7000.cli.by_register import held, is_of_registers
+from i7000.cli.numbers import hex_byte, integer
 from i7000.cli.records import parts_of
-from i7000.cli.words import UsageError, baud_rate, hex_byte, integer, member, near, truth, type_code
+from i7000.cli.units import counts, scale_of
+from i7000.cli.words import UsageError, baud_rate, member, near, truth, type_code
 from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
 
-__all__ = ["DCON", "MODBUS", "encode", "frame_text", "make"]
+__all__ = ["DCON", "MODBUS", "encode", "frame_text", "make", "refusal_words", "registers"]
 
 DCON: tuple[type[Message], ...] = (
     *dcon.COMMANDS,
@@ -32,23 +37,37 @@ MODBUS: tuple[type[Message], ...] = (
 """The messages of each protocol; some names are in both."""
 
 
+def registers(known: Known) -> modbus.RegisterMap | None:
+    """Return the map of the model that is known, if it is.
+
+    Errors: `UsageError` if it does not speak Modbus.
+    """
+    return modbus.RegisterMap(_decided(known).modbus[0]) if known.model else None
+
+
+def _decided(known: Known) -> Known:
+    """What is known, with the factory defaults that frames depend on."""
+    return evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended))
+
+
 def encode(message: Message, known: Known, *, force: bool) -> bytes:
     """Write a message, for the model that is known or for all of them, if it is the same for all that have it.
 
     Errors: `EncodeError` if no module takes it, `UsageError` if the frame depends on the model.
     """
-    known = evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended))
+    known = _decided(known)
     by_dcon = (known.default,) if known.default else known.all
     profiles = known.modbus if isinstance(message, modbus.Message) else by_dcon
     frames: dict[bytes, list[Profile]] = {}
-    refusals: list[EncodeError] = []
+    refusals: list[tuple[Profile, EncodeError]] = []
     for profile in profiles:
         try:
             frames.setdefault(_encoded(message, profile, force=force), []).append(profile)
         except EncodeError as refusal:
-            refusals.append(refusal)
+            refusals.append((profile, refusal))
     if not frames:
-        raise refusals[0]
+        having = (refusal for profile, refusal in refusals if message.section not in profile.refused)
+        raise next(having, refusals[0][1])
     first, *others = frames
     if others:
         ways = "; ".join(
@@ -65,13 +84,37 @@ def _encoded(message: Message, profile: Profile, *, force: bool) -> bytes:
     return dcon.encode(message, profile, force=force)  # type: ignore[arg-type] # it is one of the two
 
 
+def refusal_words(refusal: EncodeError, name: str, assignments: Sequence[str]) -> str:
+    """Return why a message is refused, with the value as it was written.
+
+    >>> offset = EncodeError("timeout", 300, "00..FF", "2.39")
+    >>> refusal_words(offset, "SetHostWatchdogTimeout", ["address=1", "timeout=30s"])
+    'timeout cannot be 30s: 00..FF, counts of 0.1 s, manual 2.39'
+    """
+    written = dict(assignment.split("=", 1) for assignment in assignments)
+    field, allowed = refusal.field, refusal.allowed
+    if refusal.reason or field not in written:
+        return str(refusal)
+    scale = scale_of(_find(name, (*DCON, *MODBUS)), field, 0)
+    if scale and "counts" not in allowed:
+        allowed += f", counts of {1 / scale.per_unit:g} {scale.unit}"
+    return str(EncodeError(field, refusal.value, allowed, refusal.section, f"{field} cannot be {written[field]}"))
+
+
 def frame_text(message: Message, frame: bytes) -> str:
     """A frame as people write it: DCON as text, Modbus in hex."""
     return frame.hex(" ").upper() if isinstance(message, modbus.Message) else frame[:-1].decode()
 
 
-def make(name: str, assignments: tuple[str, ...], kinds: Sequence[type[Message]] = DCON) -> Message:
-    """Make a message.
+def make(
+    name: str,
+    assignments: tuple[str, ...],
+    kinds: Sequence[type[Message]] = DCON,
+    registers: modbus.RegisterMap | None = None,
+    *,
+    force: bool = False,
+) -> Message:
+    """Make a message; with `registers`, what it reads and writes is that of this map, unless `force`.
 
     Errors: `UsageError` for what cannot be understood, `EncodeError` for a value that no such message has.
 
@@ -79,31 +122,38 @@ def make(name: str, assignments: tuple[str, ...], kinds: Sequence[type[Message]]
     SetChannelMask(address=0x01, mask=0x3A)
     """
     kind = _find(name, kinds)
-    given: dict[str, str] = {}
-    for assignment in assignments:
-        field, equals, value = assignment.partition("=")
-        if not equals:
-            raise UsageError(f"{assignment!r} is not field=value")
-        if field in given:
-            raise UsageError(f"{field} is given twice")
-        given[field] = value
-    values = {}
+    given = _given(kind, assignments)
+    values = held(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
     for field, attribute in parts_of(kind).items():
         part = _PARTS.get(field)
         if part and not given.keys().isdisjoint((field, *part)):
             values[field] = _assemble(field, part, given)
         elif field in given:
-            values[field] = _named(field, given.pop(field), _reader(attribute.type))
-        else:
+            scale = scale_of(kind, field, values.get("channel", 0))
+            read = _reader(attribute.type) if scale is None else partial(counts, scale=scale)
+            values[field] = _named(field, given.pop(field), read)
+        elif field not in values:
             missing.append(f"{field}=... ({attribute.type.__metadata__[0].allowed})")
-    if given:
-        known = [one for field in parts_of(kind) for one in (field, *_PARTS.get(field, ()))]
-        unknown = next(iter(given))
-        raise UsageError(f"{kind.__name__} has no {unknown}: {', '.join(known)}{near(unknown, known)}")
     if missing:
         raise UsageError(f"{kind.__name__} needs {', '.join(missing)}")
     return kind(**values)
+
+
+def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
+    """Read ``field=value``: what is given for each field, or part of a field."""
+    known = [one for field in parts_of(kind) for one in (field, *_PARTS.get(field, ()))]
+    given: dict[str, str] = {}
+    for assignment in assignments:
+        field, equals, value = assignment.partition("=")
+        if not equals:
+            raise UsageError(f"{assignment!r} is not field=value")
+        if field not in known:
+            raise UsageError(f"{kind.__name__} has no {field}: {', '.join(known)}{near(field, known)}")
+        if field in given:
+            raise UsageError(f"{field} is given twice")
+        given[field] = value
+    return given
 
 
 def _find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
@@ -138,14 +188,14 @@ def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise UsageError(f"{text!r} is no number") from None
+        raise UsageError(f"{text!r} is not a number") from None
 
 
 def _hex(text: str) -> bytes:
     try:
         return bytes.fromhex(text)
     except ValueError:
-        raise UsageError(f"{text!r} is no bytes in hex") from None
+        raise UsageError(f"{text!r} is not bytes in hex, two digits each") from None
 
 
 _READERS: dict[Any, Callable[[str], Any]] = {

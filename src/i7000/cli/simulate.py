@@ -44,7 +44,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
 
     * Modules: `M-7019R@B3.7`, or with settings, `M-7019R,address=02,type=K/J/T/K/K/K/K/K,protocol=dcon,checksum=true`.
       Unless given, all is as from the factory, but the n-th module has the address n. `init=true` powers it on with the
-      INIT switch set.
+      INIT switch set. Channels are switched on by `channels=0-3/5`, or by a mask: `mask=2Fh`.
+    * Numbers are decimal, or hex as `0x1A` or `1Ah`; type codes are the manual's two hex digits, or names.
     * Signals: `0=1.5V`, `all=25degC`, `02:0-3=sine:20:5:60`, `4=ramp:4mA:20mA:10`, `5=noise:100:0.5`, `6=open`,
       `7=csv:FILE`, `cjc=31.5`; units are those of the types unless given, times seconds. Unless given, each channel has
       another value within its range.

@@ -25,13 +25,12 @@ from i7000 import (
     Unit,
     dcon,
 )
+from i7000.cli.numbers import integer
 from i7000.cli.words import (
     UsageError,
     baud_rate,
     channel_numbers,
     choice,
-    hex_byte,
-    integer,
     member,
     near,
     quantity,
@@ -39,6 +38,7 @@ from i7000.cli.words import (
     type_codes,
 )
 from i7000.device import Eeprom, Signal, factory, power_on
+from i7000.dissect.numbers import address_words
 from i7000.simulator.files import UnsuitableFileError
 from i7000.simulator.recordings import read_recording
 from i7000.simulator.sources import (
@@ -97,17 +97,19 @@ def read_module(text: str, address: int) -> tuple[Eeprom, bool]:
 def _assigned(assignments: Iterable[str], made: Eeprom) -> dict[str, dict[str, Any]]:
     """Read the values of fields: those of the EEPROM, and those of its bytes CC and FF."""
     values: dict[str, dict[str, Any]] = {"": {}, "line_settings": {}, "report_settings": {}}
-    given = set()
+    given: dict[str, str] = {}
     for assignment in assignments:
         name, equals, value = (part.strip() for part in assignment.partition("="))
         if not equals:
             raise UsageError(f"{assignment!r} is not name=value")
         if name not in _SETTINGS:
             raise UsageError(f"a module has no {name!r}: {', '.join(_SETTINGS)}{near(name, list(_SETTINGS))}")
-        if name in given:
-            raise UsageError(f"{name} is given twice")
-        given.add(name)
         setting = _SETTINGS[name]
+        before = given.setdefault(setting.field, name)
+        if setting.field in values[setting.within]:
+            raise UsageError(
+                f"{name} is given twice" if before == name else f"give {before} or {name}: they are the same"
+            )
         if not setting.scope.holds(made.model):
             raise UsageError(f"{made.model.value} has no {name}: {setting.scope.text}")
         with _named(name):
@@ -127,16 +129,13 @@ def _check(eeprom: Eeprom) -> None:
 
 
 def _defined_baud_rate(text: str) -> BaudRate:
-    rate = baud_rate(text)
+    rate = baud_rate(f"{integer(text)}")
     if not isinstance(rate, BaudRate):
         raise UsageError(f"{text} baud is none of {', '.join(str(known.bits_per_second) for known in BaudRate)}")
     return rate
 
 
-def _mask(text: str, made: Eeprom) -> int:
-    """Read a mask in hex, or the channels that are in it."""
-    if text.lower().startswith("0x"):
-        return integer(text)
+def _channels(text: str, made: Eeprom) -> int:
     return dcon.mask_of(channel_numbers(text, len(made.type_codes), "/"))
 
 
@@ -212,7 +211,7 @@ def _of(field: str, read: Callable[[str], Any], scope: _Scope = _EVERY, within: 
 
 
 _SETTINGS: dict[str, _Setting] = {
-    "address": _of("address", hex_byte),
+    "address": _of("address", integer),
     "type": _Setting("type_codes", _each("type_codes", _type)),
     "protocol": _of("protocol", lambda text: choice(text, _PROTOCOLS)),
     "baud": _of("baud_rate", _defined_baud_rate, within="line_settings"),
@@ -224,7 +223,8 @@ _SETTINGS: dict[str, _Setting] = {
     "modbus_format": _of("modbus_data_format", lambda text: member(text, ModbusDataFormat), _MODBUS),
     "response_delay": _of("response_delay", integer, _MODBUS),
     "single_ended": _of("single_ended", truth),
-    "mask": _Setting("channel_mask", _mask),
+    "mask": _of("channel_mask", integer),
+    "channels": _Setting("channel_mask", _channels),
     "name": _of("name", str),
     "init": _of("init_switch", truth),
     "open_wire_detection": _of("open_wire_detection", truth, _OPEN_WIRE),
@@ -251,7 +251,7 @@ _FORMS = {
 def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0) -> tuple[Sources, ...]:
     """Read what is connected to each of several modules; what is not said is that of `default_sources`.
 
-    Shape: ``[ADDRESS:]CHANNELS=SOURCE``, for the modules with that address in hex or for all; later ones count.
+    Shape: ``[ADDRESS:]CHANNELS=SOURCE``, for the modules with that address or for all; later ones count.
         CHANNELS: ``0``, ``0-3``, ``0,2,5``, ``all``, or ``cjc``. SOURCE: a quantity, ``open``, or one of the others
         with colons between its parts; numbers without a unit have that of the type of the channel.
     Special: each noise is another one, with the same `seed` the same each time.
@@ -280,11 +280,11 @@ def _addressed(address: str, eeproms: Sequence[Eeprom]) -> list[int]:
     """Tell which modules have the address; all, if none is given."""
     if not address:
         return list(range(len(eeproms)))
-    wanted = hex_byte(address)
+    wanted = integer(address)
     found = [module for module, eeprom in enumerate(eeproms) if eeprom.address == wanted]
     if not found:
-        known = " ".join(sorted({f"{eeprom.address:02X}" for eeprom in eeproms}))
-        raise UsageError(f"no module has the address {wanted:02X}: {known}")
+        known = ", ".join(map(address_words, sorted({eeprom.address for eeprom in eeproms})))
+        raise UsageError(f"no module has the address {address_words(wanted)}, only {known}")
     return found
 
 
@@ -295,7 +295,7 @@ def _units(text: str, eeprom: Eeprom) -> dict[str, Unit]:
     try:
         channels = channel_numbers(text, len(eeprom.type_codes))
     except UsageError as error:
-        raise UsageError(f"{eeprom.model.value} at {eeprom.address:02X}: {error}; or cjc") from None
+        raise UsageError(f"{eeprom.model.value} at {address_words(eeprom.address)}: {error}; or cjc") from None
     return {str(channel): eeprom.type_codes[channel].unit for channel in channels}
 
 

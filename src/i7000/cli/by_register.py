@@ -1,0 +1,189 @@
+"""Requests of coils and registers for a model: addresses by name, values in units, both held against its map.
+
+Laws: what a map has at an address decides how a value there is written: as ``i7000 decode`` prints it. The manual's
+numbers (40489) are refused, since frames have addresses (488), and the address that is meant is named.
+"""
+
+import re
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any
+
+from i7000 import EncodeError, LineSettings, TypeCode, modbus
+from i7000.cli.numbers import hex_byte, integer, is_hex
+from i7000.cli.records import parts_of
+from i7000.cli.units import Scale, counts
+from i7000.cli.words import UsageError, member, near, truth, type_code
+from i7000.message import Message
+from i7000.modbus import Access, Area, Kind, Register, RegisterMap
+from i7000.modbus.layout import MOST_BITS
+
+__all__ = ["held", "is_of_registers"]
+
+_AREAS: Mapping[type[Message], Area] = {
+    modbus.ReadCoils: Area.COIL,
+    modbus.ReadDiscreteInputs: Area.DISCRETE_INPUT,
+    modbus.ReadHoldingRegisters: Area.HOLDING_REGISTER,
+    modbus.ReadInputRegisters: Area.INPUT_REGISTER,
+    modbus.WriteSingleCoil: Area.COIL,
+    modbus.WriteSingleRegister: Area.HOLDING_REGISTER,
+    modbus.WriteMultipleCoils: Area.COIL,
+    modbus.WriteMultipleRegisters: Area.HOLDING_REGISTER,
+}
+_SEVERAL: Mapping[type[Message], type[Message]] = {
+    modbus.WriteSingleCoil: modbus.WriteMultipleCoils,
+    modbus.WriteSingleRegister: modbus.WriteMultipleRegisters,
+}
+_PLACES = ("start", "coil", "register")
+"""The fields that hold an address."""
+
+
+def is_of_registers(kind: type[Message]) -> bool:
+    """Return whether a message is a request of coils, inputs or registers by address."""
+    return kind in _AREAS
+
+
+def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
+    """Take what stands for registers out of `given`, and return the values of these fields.
+
+    Special: with `force` only names are replaced by addresses; values stay in `given`, to be read as plain numbers.
+        Without a map, nothing is taken.
+    Errors: `UsageError` for what cannot be understood, `EncodeError` for what the module does not have or take.
+    """
+    field = next(name for name in parts_of(kind) if name in _PLACES)
+    if registers is None:
+        if not _is_number(given.get(field, "")):
+            raise UsageError(f"{field}: {given[field]!r} is not a number, and names of registers need --model")
+        return {}
+    text = given.pop(field, None)
+    if text is None:
+        return {}
+    row = None if _is_number(text) else _find(kind, field, text, registers)
+    found: dict[str, Any] = {field: integer(text) if row is None else row.address}
+    if row and "count" in parts_of(kind) and "count" not in given:
+        found["count"] = registers.read(1, row.name).count
+    if force:
+        return found
+    if re.fullmatch("[0134][0-9]{4}", text):
+        raise UsageError(f"{field}: {_manual(kind, field, text, registers)}")
+    if "count" in given:
+        found["count"] = integer(given.pop("count"))
+    for value in given.keys() & {"value", "values"}:
+        texts = given.pop(value).split(",")
+        found[value] = _written(kind, found[field], texts, registers)
+    for address in range(found[field], found[field] + min(found.get("count", 0), MOST_BITS)):
+        _row(kind, address, registers)
+    return found
+
+
+def _is_number(text: str) -> bool:
+    return is_hex(text) or not text[:1].isalpha()
+
+
+# --- addresses --------------------------------------------------------------------------------------------------------
+
+
+def _words(area: Area) -> str:
+    return area.name.lower().replace("_", " ")
+
+
+def _find(kind: type[Message], field: str, name: str, registers: RegisterMap) -> Register:
+    """Find a row by name."""
+    area = _AREAS[kind]
+    others = [row for row in registers if row.name == name]
+    found = next((row for row in others if row.area is area), None)
+    model = registers.profile.model.value
+    if found is None and others:
+        raise UsageError(f"{field}: {name} of {model} is {_article(others[0].area)}, not {_article(area)}")
+    if found is None:
+        names = sorted({row.name for row in registers if row.area is area})
+        raise UsageError(f"{field}: {model} has no {_words(area)} {name!r}: {', '.join(names)}{near(name, names)}")
+    return found
+
+
+def _article(area: Area) -> str:
+    return f"{'an' if area is Area.INPUT_REGISTER else 'a'} {_words(area)}"
+
+
+def _manual(kind: type[Message], field: str, text: str, registers: RegisterMap) -> str:
+    """Return why one of the manual's numbers is not an address, and what is."""
+    area, address = Area(int(text[0])), int(text[1:]) - 1
+    row = _at(registers, area, address)
+    what = f"{text} is the manual's number" + (f" of {row.name}" if row else "")
+    if area is not _AREAS[kind]:
+        return f"{what}, {_article(area)} with the address {address}; {kind.__name__} is about {_words(_AREAS[kind])}s"
+    return f"{what}, frames have its address: {field}={address}" + (
+        f" or {field}={row.name}" if row and row.address == address and (row.count == 1 or field == "start") else ""
+    )
+
+
+def _at(registers: RegisterMap, area: Area, address: int) -> Register | None:
+    found = (row for row in registers if row.area is area and row.address <= address < row.address + row.count)
+    return next(found, None)
+
+
+def _row(kind: type[Message], address: int, registers: RegisterMap) -> Register:
+    """Return the row at an address that a message reads or writes.
+
+    Errors: `EncodeError` if the map has none, or none that can be read or written so.
+    """
+    area, model = _AREAS[kind], registers.profile.model.value
+    row = _at(registers, area, address)
+    if row is None:
+        number = Register("", area, address).number
+        reason = f"{model} has no {_words(area)} at address {address}, {number} in the manual"
+        raise EncodeError("address", address, f"i7000 registers --model {model} lists what it has", "", reason)
+    reads = "count" in parts_of(kind)
+    if row.access is (Access.WRITE if reads else Access.READ):
+        allowed = f"it can only be {'written' if reads else 'read'}"
+        raise EncodeError("address", address, allowed, "", f"{row.name} cannot be {'read' if reads else 'written'}")
+    return row
+
+
+# --- values -----------------------------------------------------------------------------------------------------------
+
+
+def _written(kind: type[Message], start: int, texts: list[str], registers: RegisterMap) -> Any:  # noqa: ANN401
+    """Read what is written from an address on, each value as the row has it that stands there."""
+    items: list[int] = []
+    for text in texts:
+        items.extend(_items(kind, start + len(items), text.strip(), registers))
+    if "values" in parts_of(kind):
+        return tuple(items)
+    if len(items) > 1:
+        raise UsageError(f"value: {len(items)} registers are written here: {_SEVERAL[kind].__name__} does that")
+    return items[0]
+
+
+def _items(kind: type[Message], address: int, text: str, registers: RegisterMap) -> tuple[int, ...]:
+    """Return what is written for the value at an address."""
+    row = _row(kind, address, registers)
+    number = Register("", row.area, address).number
+    try:
+        value = _value(row, number, text, registers)
+    except UsageError as error:
+        raise UsageError(f"{row.name}: {error}") from None
+    try:
+        request: Any = registers.write(1, number, value)
+    except EncodeError as refusal:
+        raise EncodeError(row.name, text, refusal.allowed, refusal.section, f"{row.name} cannot be {text}") from None
+    return request.values if isinstance(request, modbus.WriteMultipleRegisters) else (request.value,)
+
+
+def _value(row: Register, number: str, text: str, registers: RegisterMap) -> Any:  # noqa: ANN401
+    """Read a value: of the kind that the map decodes there."""
+    example = registers.decode(number, (max(row.minimum or 0, 0),) * row.kind.width)
+    if isinstance(example, TypeCode):
+        return type_code(text)
+    if isinstance(example, LineSettings):
+        return hex_byte(text)
+    if isinstance(example, bool):
+        return truth(text)
+    if isinstance(example, Enum):
+        return member(text, type(example))
+    scale = Scale(row.unit or "", round(1 / (row.scale or 1)))
+    read = counts(text, scale)
+    if is_hex(text) and row.kind in (Kind.INT8, Kind.INT16):
+        bits = 8 if row.kind is Kind.INT8 else 16
+        read -= (read & 1 << (bits - 1)) << 1
+    return read / scale.per_unit if scale.per_unit > 1 else read
