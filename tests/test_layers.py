@@ -40,7 +40,7 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "collections", "contextlib", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

@@ -28,6 +28,7 @@ def decode(
     *frames: Annotated[str, Parameter(help="Frames; without any, the lines of --file or of standard input.")],
     file: Annotated[Path | None, Parameter(help="A log; - is standard input.", allow_leading_hyphen=True)] = None,
     protocol: Annotated[Literal["auto", "dcon", "rtu"], Parameter(help="DCON, Modbus RTU, or both.")] = "auto",
+    strict: Annotated[bool, Parameter(help="Lines without a frame are not understood either.", negative="")] = False,
     json: Json = False,
     module: Module = UNKNOWN,
 ) -> int:
@@ -57,25 +58,28 @@ def decode(
     * if it has more: `candidates`, objects with the keys of a meaning.
     """
     knowledge = Knowledge.given(module.known(protocol))
-    count = 0
+    count = framed = 0
     wrong = Counted()
     printer = Printer(json=json)
     with _source(frames, file, printer) as lines:
         texts = ((number, text.decode("utf-8", "surrogateescape")) for number, text in lines)
         for record, heard in records(texts, knowledge, _PROTOCOLS[protocol]):
             count += 1
-            if heard is not None and not heard.understood:
+            framed += heard is not None
+            if strict if heard is None else not heard.understood:
                 wrong.add(record["line"])
             unknown = heard is not None and knowledge.of(heard.address).known.model is None
             printer.record(record, frame_lines(record, None if heard is None else heard.answers, models=unknown))
     long = lines.long if isinstance(lines, Lines) else Counted()
     if not count:
         printer.error("there was nothing to decode")
+    elif not framed:
+        printer.error("there is no frame in it")
     if long.count:
         printer.error(f"{long.count} too long, read in pieces of {LONGEST_LINE} bytes that may cut frames: line {long}")
     if wrong.count:
         printer.error(f"{wrong.count} not understood: line {wrong}")
-    return 1 if wrong.count or long.count else 0
+    return 1 if wrong.count or long.count or (count and not framed) else 0
 
 
 def records(
@@ -83,12 +87,12 @@ def records(
 ) -> Iterator[tuple[Record, Heard | None]]:
     """Yield a record for each frame of a log, and for each line without one."""
     line = Listener(knowledge, protocol)
-    for number, piece in enumerate(pieces(lines), 1):
+    for number, piece in enumerate(pieces(lines, protocol), 1):
         if piece.kind is None:
             yield frameless_record(number, piece), None
             continue
         place = Place(number, f"line {piece.number}")
-        line, heard = hear_frame(line, piece.wire, protocol or _protocol_of(piece), place)
+        line, heard = hear_frame(line, piece.wire, _protocol_of(piece) if protocol is None else protocol, place)
         yield heard_record(piece, heard), heard
 
 

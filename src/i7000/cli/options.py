@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from attrs import frozen
 from cyclopts import Parameter
 
-from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model
+from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Protocol
 from i7000.cli.words import UsageError, type_codes
 from i7000.dissect import Known
 
@@ -53,6 +53,8 @@ class Module:
                 self.single_ended,
                 self.modbus_format,
             )
+            if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
+                raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
             _ = known.default, known.all, protocol == "rtu" and known.modbus
         except EncodeError as error:
             raise UsageError(error) from None

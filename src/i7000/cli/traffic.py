@@ -57,6 +57,7 @@ def _deaf_words(protocol: Protocol, deaf: Profile) -> str:
 
 
 _STATUS: dict[Status | None, tuple[str, str]] = {
+    Status.DISABLED: ("disabled", "dim"),
     Status.OVER_RANGE: ("OVER_RANGE", "yellow"),
     Status.UNDER_RANGE: ("UNDER_RANGE", "yellow"),
 }
@@ -69,7 +70,8 @@ def readings_text(readings: Sequence[Reading | ChannelReading], write: Callable[
         value, unit = reading.value, reading.unit
         text.append(", " if channel else "")
         if value is None:
-            text.append(*_STATUS.get(reading.status, ("disabled", "dim")))
+            unknown = reading.text if isinstance(reading, ChannelReading) else ""
+            text.append(*_STATUS.get(reading.status, (unknown, "")))
             continue
         later = next((it.unit for it in readings[channel + 1 :] if it.value is not None), None)
         text.append(write(channel, value) + (f" {unit}" if unit is not later else ""), "green")

@@ -13,8 +13,10 @@ from i7000.dcon.layout import Part
 
 __all__ = ["is_shaped", "plain_shapes", "report"]
 
-_FIELD = r"[+-](?:\d\.\d{4}|\d\d\.\d{3}|\d{3}\.\d\d|\d{4}\.\d)|[+-](?:9999|0000)(?!\.)|[0-9A-F]{4}"
-_FIELDS = rf"(?:(?:{_FIELD})|\x20{{7}})+"
+_SENTINEL = r"[+-](?:9999|0000)(?!\.)"
+_NUMBER = r"[+-](?:\d\.\d{4}|\d\d\.\d{3}|\d{3}\.\d\d|\d{4}\.\d)"
+_HEX = rf"(?:[0-9A-F]{{4}}|{_SENTINEL})"
+_FIELDS = rf"(?:(?:\x20{{4}})*{_HEX}(?:{_HEX}|\x20{{4}})*|(?:{_NUMBER}|{_SENTINEL}|\x20{{7}})+)"
 _WIDTHS = {"channel_digits": "{1,2}", "mask_digits": "{2,6}"}
 _NAME = r"[^\s%#$~@!>?]{1,6}"
 _RESTS = {"values": _FIELDS, "value": _FIELDS, "name": _NAME, "version": r"[A-Z]\d+\.\d+"}

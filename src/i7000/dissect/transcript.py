@@ -7,11 +7,13 @@ put together only where nothing else can be made of its parts.
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from i7000.dissect.damage import in_place_of_a_frame
 from i7000.dissect.finder import read_line
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
 from i7000.modbus import LONGEST_FRAME
+from i7000.settings import Protocol
 
 __all__ = ["Piece", "pieces"]
 
@@ -38,8 +40,11 @@ class _Part(NamedTuple):
     wire: bytes
 
 
-def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
+def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -> Iterator[Piece]:
     r"""Find the frames in numbered lines.
+
+    Special: `protocol` is the one that is expected, if it is known: a line that can be meant for a frame of it is
+        damaged, and not a line without a frame.
 
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
@@ -49,26 +54,26 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
         plain = find_plain(text)
         if plain is not None:
             if parts:
-                yield from _apart(parts)
+                yield from _apart(parts, protocol)
                 parts = []
             yield Piece(number, number, text, plain[0], plain[1])
             continue
         found, part = read_line(text)
         if not part:
-            yield from _apart(parts)
+            yield from _apart(parts, protocol)
             parts = []
-            yield from _of_line(number, text, found)
+            yield from _of_line(number, text, found, protocol)
             continue
         parts.append(_Part(number, text, found, part))
         while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
-            yield from _apart(parts[:1])
+            yield from _apart(parts[:1], protocol)
             del parts[0]
         whole = _whole(parts)
         if whole is not None:
-            yield from _apart(parts[:whole])
+            yield from _apart(parts[:whole], protocol)
             yield from _joined(parts[whole:])
             parts = []
-    yield from _apart(parts)
+    yield from _apart(parts, protocol)
 
 
 def _whole(parts: list[_Part]) -> int | None:
@@ -93,12 +98,17 @@ def _joined(parts: list[_Part]) -> Iterator[Piece]:
         yield Piece(parts[0].number, parts[-1].number, text, kind, wire[start:end])
 
 
-def _apart(parts: Iterable[_Part]) -> Iterator[Piece]:
+def _apart(parts: Iterable[_Part], protocol: Protocol | None) -> Iterator[Piece]:
     for part in parts:
-        yield from _of_line(part.number, part.text, part.found)
+        yield from _of_line(part.number, part.text, part.found, protocol)
 
 
-def _of_line(number: int, text: str, found: tuple[Found, ...]) -> Iterator[Piece]:
+def _of_line(number: int, text: str, found: tuple[Found, ...], protocol: Protocol | None) -> Iterator[Piece]:
+    nothing_else = protocol is not None and all(it.kind is Kind.DAMAGED for it in found)
+    damaged = in_place_of_a_frame(text, protocol) if nothing_else or not found else None
+    if damaged is not None:
+        yield Piece(number, number, text, Kind.DAMAGED, damaged)
+        return
     if not found and text.strip():
         yield Piece(number, number, text, None, b"")
     at = 0
