@@ -12,11 +12,14 @@ RINGS = {
     "errors": 1,
     "frozen": 1,
     "arguments": 1,
+    "availability": 1,
+    "compiled": 1,
     "type_codes": 1,
     "settings": 1,
     "describe": 1,
     "fields": 1,
     "models": 1,
+    "names": 1,
     "profile": 1,
     "readings": 2,
     "message": 2,
@@ -40,7 +43,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "collections", "contextlib", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "collections", "contextlib", "enum", "functools", "itertools", "linecache", "math", "operator", "re",
+    "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

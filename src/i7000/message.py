@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args
 from attrs import fields
 
 import i7000.frozen
+from i7000.availability import Availability
 from i7000.errors import ArgumentError
 from i7000.profile import Profile
 
-__all__ = ["CompiledOnce", "Message", "frozen", "type_of_answer"]
+__all__ = ["CompiledOnce", "Message", "answer_of", "frozen"]
 
 _IN_HEX = ("address", "new_address", "mask")
 
@@ -26,6 +27,9 @@ class CompiledOnce:
         self._compile = compile_layout
 
     def __get__(self, message: object, kind: Any) -> Any:  # noqa: ANN401 - a class and its layout
+        if not hasattr(kind, "section"):
+            instead: str = kind._instead  # noqa: SLF001 - of the class that this is part of
+            raise ArgumentError("message", kind, f"construct {instead}", f"{kind.__name__} is a base class")
         kind.layout = self._compile(kind)
         return kind.layout
 
@@ -39,28 +43,24 @@ else:
 class Message:
     """A message of one of the protocols.
 
-    Shape: `section` of the manual; `title`, a few words for people; `layout`, the compiled statement of the wire form.
+    Shape: `section` of the manual; `title`, a few words for people; `availability`, who has it; `layout`, the compiled
+        statement of the wire form.
     """
 
     __slots__ = ()
 
     section: ClassVar[str]
     title: ClassVar[str]
+    availability: ClassVar[Availability] = Availability.ALL
     layout: ClassVar[Any]
     _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
     """What to construct where a class is only the base of others, which has no section."""
 
     def __init__(self, *_: object, **__: object) -> None:  # of a base class without fields; attrs makes that of others
-        raise self._is_base()
+        _ = self.layout
 
     def __attrs_post_init__(self) -> None:
-        if not hasattr(self, "section"):
-            raise self._is_base()
         self.layout.check(self)
-
-    @classmethod
-    def _is_base(cls) -> ArgumentError:
-        return ArgumentError("message", cls, f"construct {cls._instead}", f"{cls.__name__} is a base class")
 
     def _values(self) -> dict[str, Any]:
         return {it.name: getattr(self, it.name) for it in fields(type(self))}  # type: ignore[arg-type] # of an attrs class
@@ -94,6 +94,12 @@ class Message:
         """
 
 
-def type_of_answer(kind: Any) -> Any:  # noqa: ANN401 - a class
-    """Tell the type in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``."""
-    return get_args(kind.__orig_bases__[0])[0]
+def answer_of(kind: Any) -> Any:  # noqa: ANN401 - classes
+    """Return the class in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``.
+
+    Special: a response of the same section as its command is for the same models.
+    """
+    response = get_args(kind.__orig_bases__[0])[0]
+    if getattr(response, "section", None) == getattr(kind, "section", ""):
+        response.availability = kind.availability
+    return response

@@ -16,7 +16,7 @@ from i7000.cli.units import Scale, counts
 from i7000.cli.words import UsageError, member, near, truth, type_code
 from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
-from i7000.modbus.layout import MOST_BITS
+from i7000.modbus.items import MOST_BITS
 
 __all__ = ["held", "is_of_registers"]
 

@@ -32,7 +32,7 @@ def commands(
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
     printer = Printer(json=json)
     for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
-        having = [profile.model.value for profile in profiles if command.section not in profile.refused]
+        having = [profile.model.value for profile in profiles if command.availability not in profile.refused]
         if having:
             printer.record(*_listed(command, having))
     return 0

@@ -11,11 +11,10 @@ from typing import Any
 
 from attrs import fields
 
-from i7000 import Firmware, LineSettings, Model, ReportSettings, dcon, modbus
+from i7000 import LineSettings, ReportSettings, dcon, modbus
 from i7000.dissect import ChannelReading, Heard, Item, Meaning, Piece
 from i7000.dissect.meaning import errata
 from i7000.message import Message
-from i7000.models import AVAILABILITY
 from i7000.settings import Protocol
 
 __all__ = ["PROTOCOLS", "SCHEMA_VERSION", "Record", "command_record", "frameless_record", "heard_record", "parts_of"]
@@ -180,7 +179,7 @@ def _item(item: Item) -> Record:
 def command_record(command: Any, models: Iterable[str]) -> Record:  # noqa: ANN401 - a class of either protocol
     """Return the record of a command or request, as ``i7000 commands`` lists it."""
     response = getattr(command, "response", None)
-    since = {model.value: firmware and str(firmware) for model, firmware in _gates(command.section).items()}
+    since = {model.value: firmware and str(firmware) for model, firmware in command.availability.gates.items()}
     return {
         "section": command.section,
         "name": command.__name__,
@@ -196,8 +195,3 @@ def command_record(command: Any, models: Iterable[str]) -> Record:  # noqa: ANN4
 
 def _syntax(kind: Any) -> str:  # noqa: ANN401 - a class of either protocol
     return str(kind.pdu if issubclass(kind, modbus.Message) else kind.syntax)
-
-
-def _gates(section: str) -> dict[Model, Firmware | None]:
-    """Return the models that have a command, and the firmware from which on."""
-    return dict(AVAILABILITY[section].gates) if section in AVAILABILITY else dict.fromkeys(Model)

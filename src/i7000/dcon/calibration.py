@@ -7,8 +7,9 @@ opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and 
 
 from attrs import field
 
-from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, check_channel
+from i7000.availability import Availability
+from i7000.dcon import parts
+from i7000.dcon.command import Acknowledged, Command
 from i7000.message import frozen
 from i7000.profile import Profile
 
@@ -35,6 +36,7 @@ class CalibrateSpan(Command[Acknowledged]):
     syntax = "$AA0"
     section = "2.5"
     title = "span calibration of the whole module"
+    availability = Availability.SERIES_7017_7018
 
 
 class CalibrateZero(Command[Acknowledged]):
@@ -48,6 +50,7 @@ class CalibrateZero(Command[Acknowledged]):
     syntax = "$AA1"
     section = "2.6"
     title = "zero calibration of the whole module"
+    availability = Availability.SERIES_7017_7018
 
 
 @frozen
@@ -62,8 +65,9 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
     syntax = "$AA0Ci"
     section = "2.7"
     title = "span calibration of single current inputs"
+    availability = Availability.M_7017MC_16
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
 
 @frozen
@@ -80,12 +84,13 @@ class CalibrateChannelZero(Command[Acknowledged]):
     syntax = "$AA0Ci"
     section = "2.8"
     title = "zero calibration of single channels"
+    availability = Availability.SERIES_7019
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 @frozen
@@ -102,12 +107,13 @@ class CalibrateChannelSpan(Command[Acknowledged]):
     syntax = "$AA1Ci"
     section = "2.9"
     title = "span calibration of single channels"
+    availability = Availability.SERIES_7019
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 class CalibrateInternally(Command[Acknowledged]):
@@ -121,6 +127,7 @@ class CalibrateInternally(Command[Acknowledged]):
     syntax = "$AAS0"
     section = "2.27"
     title = "internal calibration"
+    availability = Availability.SERIES_7019
 
 
 class ReloadDefaultCalibration(Command[Acknowledged]):
@@ -135,6 +142,7 @@ class ReloadDefaultCalibration(Command[Acknowledged]):
     syntax = "$AAS1"
     section = "2.28"
     title = "default calibration to reload"
+    availability = Availability.SOFT_INIT
 
 
 @frozen
@@ -149,4 +157,17 @@ class SetCalibrationEnabled(Command[Acknowledged]):
     section = "2.31"
     title = "calibration switch"
 
-    enabled: layout.FlagV = field(kw_only=True)
+    enabled: parts.FlagV = field(kw_only=True)
+
+
+COMMANDS = (
+    CalibrateSpan,
+    CalibrateZero,
+    CalibrateCurrentChannelSpan,
+    CalibrateChannelZero,
+    CalibrateChannelSpan,
+    CalibrateInternally,
+    ReloadDefaultCalibration,
+    SetCalibrationEnabled,
+)
+"""The commands of this module, by section."""

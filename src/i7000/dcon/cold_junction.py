@@ -2,9 +2,9 @@
 
 from attrs import field
 
-from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Message, Response
-from i7000.errors import EncodeError
+from i7000.availability import Availability
+from i7000.dcon import parts
+from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
 
@@ -22,14 +22,6 @@ __all__ = [
     "SetCjcUpdate",
 ]
 
-OFFSET_LIMIT = 0x1000
-"""The largest magnitude of an offset that a module takes (2.18)."""
-
-
-def _check_offset(message: Message, offset: int) -> None:
-    if abs(offset) > OFFSET_LIMIT:
-        raise EncodeError("offset", offset, f"-{OFFSET_LIMIT}..+{OFFSET_LIMIT} counts of 0.01 degC", message.section)
-
 
 @frozen
 class CjcTemperature(Response):
@@ -46,7 +38,7 @@ class CjcTemperature(Response):
     section = "2.11"
     title = "CJC temperature"
 
-    temperature: layout.Temperature
+    temperature: parts.Temperature
 
 
 class ReadCjcTemperature(Command[CjcTemperature]):
@@ -60,6 +52,7 @@ class ReadCjcTemperature(Command[CjcTemperature]):
     syntax = "$AA3"
     section = "2.11"
     title = "CJC temperature"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -76,17 +69,17 @@ class CjcOffset(Response):
     section = "2.17"
     title = "CJC offset"
 
-    address: layout.Address
-    offset: layout.OffsetData
+    address: parts.Address
+    offset: parts.OffsetData
 
     @property
     def celsius(self) -> float:
         """The offset in degrees Celsius."""
         return self.offset / 100
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse an offset beyond the limit."""
-        _check_offset(self, self.offset)
+        profile.check_cjc_offset(self.offset, self.section)
 
 
 class ReadCjcOffset(Command[CjcOffset]):
@@ -100,6 +93,7 @@ class ReadCjcOffset(Command[CjcOffset]):
     syntax = "$AA9"
     section = "2.17"
     title = "CJC offset"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -118,12 +112,13 @@ class SetCjcOffset(Command[Acknowledged]):
     syntax = "$AA9SNNNN"
     section = "2.18"
     title = "CJC offset"
+    availability = Availability.SERIES_7018_7019
 
-    offset: layout.Offset
+    offset: parts.Offset
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse an offset beyond the limit."""
-        _check_offset(self, self.offset)
+        profile.check_cjc_offset(self.offset, self.section)
 
 
 @frozen
@@ -138,8 +133,8 @@ class CjcUpdateSetting(Response):
     section = "2.20"
     title = "CJC update setting"
 
-    address: layout.Address
-    update: layout.Update
+    address: parts.Address
+    update: parts.Update
 
 
 class ReadCjcUpdate(Command[CjcUpdateSetting]):
@@ -153,6 +148,7 @@ class ReadCjcUpdate(Command[CjcUpdateSetting]):
     syntax = "$AAA"
     section = "2.20"
     title = "CJC update setting"
+    availability = Availability.SERIES_7019
 
 
 @frozen
@@ -167,8 +163,9 @@ class SetCjcUpdate(Command[Acknowledged]):
     syntax = "$AAAi"
     section = "2.21"
     title = "CJC update setting"
+    availability = Availability.SERIES_7019
 
-    update: layout.Update
+    update: parts.Update
 
 
 @frozen
@@ -183,8 +180,8 @@ class CjcEnabled(Response):
     section = "2.29"
     title = "CJC switch"
 
-    address: layout.Address
-    enabled: layout.FlagN = field(kw_only=True)
+    address: parts.Address
+    enabled: parts.FlagN = field(kw_only=True)
 
 
 class ReadCjcEnabled(Command[CjcEnabled]):
@@ -198,6 +195,7 @@ class ReadCjcEnabled(Command[CjcEnabled]):
     syntax = "~AAC"
     section = "2.29"
     title = "CJC switch"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -212,5 +210,18 @@ class SetCjcEnabled(Command[Acknowledged]):
     syntax = "~AACN"
     section = "2.30"
     title = "CJC switch"
+    availability = Availability.SERIES_7018_7019
 
-    enabled: layout.FlagN = field(kw_only=True)
+    enabled: parts.FlagN = field(kw_only=True)
+
+
+COMMANDS = (
+    ReadCjcTemperature,
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadCjcUpdate,
+    SetCjcUpdate,
+    ReadCjcEnabled,
+    SetCjcEnabled,
+)
+"""The commands of this module, by section."""

@@ -8,12 +8,11 @@ from typing import Any
 
 from attrs import evolve
 
-from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Response, check_channel, check_type_code
-from i7000.errors import EncodeError
+from i7000.availability import Availability
+from i7000.dcon import parts
+from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat, DataFormat, Filter
 from i7000.type_codes import MIXED
 
 __all__ = [
@@ -44,10 +43,10 @@ class SetConfiguration(Command[Acknowledged]):
     section = "2.1"
     title = "module configuration"
 
-    new_address: layout.NewAddress
-    type_code: layout.NewTypeCode
-    line_settings: layout.Line
-    report_settings: layout.Report
+    new_address: parts.NewAddress
+    type_code: parts.NewTypeCode
+    line_settings: parts.Line
+    report_settings: parts.Report
 
     @property
     def answering_address(self) -> int:
@@ -56,24 +55,11 @@ class SetConfiguration(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse what the model or its firmware does not have."""
-        model, line, report = profile.model, self.line_settings, self.report_settings
         mixed = self.type_code == MIXED and profile.individually_configurable
-        if model.type_by_configuration and not mixed:
-            check_type_code(self, self.type_code, profile)
-        if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
-            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
-        if line.character_format is not CharacterFormat.N81 and not profile.runs(model.character_formats_from):
-            allowed = f"N81 with firmware before {model.character_formats_from}: {model.value}"
-            raise EncodeError("character_format", line.character_format.name, allowed, "1.11")
-        if not isinstance(DataFormat.of(report.data_format), DataFormat):
-            raise EncodeError("data_format", report.data_format, "0..2", "1.11")
-        if report.reserved:
-            raise EncodeError("reserved", report.reserved, "0", "1.11")
-        if report.fast_mode and not model.fast_mode:
-            raise EncodeError("fast_mode", True, f"{model.value} has no fast mode", "1.11")
-        if report.filter is not Filter.REJECT_60_HZ and not profile.runs(model.filter_from):
-            allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {model.filter_from}: {model.value}"
-            raise EncodeError("filter", report.filter.name, allowed, "1.11")
+        if profile.model.type_by_configuration and not mixed:
+            profile.check_type_code(self.type_code, self.section)
+        profile.check_line(self.line_settings, "1.11")
+        profile.check_report(self.report_settings, "1.11")
 
 
 @frozen
@@ -90,10 +76,10 @@ class Configuration(Response):
     section = "2.10"
     title = "module configuration"
 
-    address: layout.Address
-    type_code: layout.NewTypeCode
-    line_settings: layout.Line
-    report_settings: layout.Report
+    address: parts.Address
+    type_code: parts.NewTypeCode
+    line_settings: parts.Line
+    report_settings: parts.Report
 
     def command(self, **changes: Any) -> SetConfiguration:  # noqa: ANN401 - checked by the constructor
         """Make the command that writes this configuration back, with `changes` to the fields of `SetConfiguration`.
@@ -134,14 +120,15 @@ class SetChannelTypeCode(Command[Acknowledged]):
     syntax = "$AA7CiRrr"
     section = "2.15"
     title = "type code of single channels"
+    availability = Availability.CONFIGURABLE
 
-    channel: layout.ChannelI
-    type_code: layout.ChannelTypeCode
+    channel: parts.ChannelI
+    type_code: parts.ChannelTypeCode
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or a type that the module does not have."""
-        check_channel(self, self.channel, profile)
-        check_type_code(self, self.type_code, profile)
+        profile.check_channel(self.channel, self.section)
+        profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
@@ -156,9 +143,9 @@ class ChannelTypeCode(Response):
     section = "2.16"
     title = "type code of a channel"
 
-    address: layout.Address
-    channel: layout.ChannelI
-    type_code: layout.ChannelTypeCode
+    address: parts.Address
+    channel: parts.ChannelI
+    type_code: parts.ChannelTypeCode
 
 
 @frozen
@@ -175,9 +162,19 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
     syntax = "$AA8Ci"
     section = "2.16"
     title = "type code of single channels"
+    availability = Availability.CONFIGURABLE
 
-    channel: layout.ChannelI
+    channel: parts.ChannelI
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
+
+
+COMMANDS = (
+    SetConfiguration,
+    ReadConfiguration,
+    SetChannelTypeCode,
+    ReadChannelTypeCode,
+)
+"""The commands of this module, by section."""

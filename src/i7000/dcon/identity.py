@@ -5,9 +5,9 @@ Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
 
 from attrs import field
 
-from i7000.dcon import layout
+from i7000.availability import Availability
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Response
-from i7000.dcon.names import is_name
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -42,8 +42,8 @@ class FirmwareVersion(Response):
     section = "2.23"
     title = "firmware version"
 
-    address: layout.Address
-    version: layout.Version
+    address: parts.Address
+    version: parts.Version
 
 
 class ReadFirmwareVersion(Command[FirmwareVersion]):
@@ -72,8 +72,8 @@ class ModuleName(Response):
     section = "2.24"
     title = "module name"
 
-    address: layout.Address
-    name: layout.Name
+    address: parts.Address
+    name: parts.Name
 
 
 class ReadModuleName(Command[ModuleName]):
@@ -102,14 +102,11 @@ class SetModuleName(Command[Acknowledged]):
     section = "2.33"
     title = "module name"
 
-    name: layout.NewName
+    name: parts.NewName
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse a name that is the text of another answer."""
-        if not is_name(self.name):
-            raise EncodeError(
-                "name", self.name, "not the text of another answer (2, 4 or 6 hex digits, a version, ...)", self.section
-            )
+        profile.check_name(self.name, self.section)
 
 
 @frozen
@@ -124,10 +121,10 @@ class ProtocolSetting(Response):
     section = "2.25"
     title = "protocol"
 
-    address: layout.Address
-    modbus_supported: layout.FlagS = field(kw_only=True)
+    address: parts.Address
+    modbus_supported: parts.FlagS = field(kw_only=True)
     """True on every module that has the command (E92)."""
-    protocol: layout.ProtocolC
+    protocol: parts.ProtocolC
 
 
 class ReadProtocol(Command[ProtocolSetting]):
@@ -141,6 +138,7 @@ class ReadProtocol(Command[ProtocolSetting]):
     syntax = "$AAP"
     section = "2.25"
     title = "protocol"
+    availability = Availability.M_SERIES
 
 
 @frozen
@@ -155,8 +153,9 @@ class SetProtocol(Command[Acknowledged]):
     syntax = "$AAPN"
     section = "2.26"
     title = "protocol"
+    availability = Availability.M_SERIES
 
-    protocol: layout.ProtocolN
+    protocol: parts.ProtocolN
 
 
 class SoftInit(Command[Acknowledged]):
@@ -171,6 +170,7 @@ class SoftInit(Command[Acknowledged]):
     syntax = "~AAI"
     section = "2.32"
     title = "soft INIT"
+    availability = Availability.SOFT_INIT
 
 
 @frozen
@@ -188,10 +188,23 @@ class SetSoftInitTimeout(Command[Acknowledged]):
     syntax = "~AATnn"
     section = "2.34"
     title = "soft INIT time-out"
+    availability = Availability.SOFT_INIT
 
-    timeout: layout.Seconds
+    timeout: parts.Seconds
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
         """Refuse a longer time-out."""
         if self.timeout > LONGEST_TIMEOUT:
             raise EncodeError("timeout", self.timeout, f"0..{LONGEST_TIMEOUT} s", self.section)
+
+
+COMMANDS = (
+    ReadFirmwareVersion,
+    ReadModuleName,
+    ReadProtocol,
+    SetProtocol,
+    SoftInit,
+    SetModuleName,
+    SetSoftInitTimeout,
+)
+"""The commands of this module, by section."""

@@ -8,8 +8,9 @@ mean is told by `i7000.dcon.readings`.
 
 from attrs import field
 
-from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Message, Response, check_channel, check_mask
+from i7000.availability import Availability
+from i7000.dcon import parts
+from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
 from i7000.fields import is_field
 from i7000.message import frozen
@@ -57,7 +58,7 @@ class AnalogInputs(Response):
     section = "2.3"
     title = "readings of all channels"
 
-    values: layout.Values
+    values: parts.Values
 
     def check(self, profile: Profile) -> None:
         """Refuse fields that are not those of the module's channels."""
@@ -89,7 +90,7 @@ class AnalogInput(Response):
     section = "2.4"
     title = "reading of one channel"
 
-    value: layout.Value
+    value: parts.Value
 
     def check(self, profile: Profile) -> None:
         """Refuse a field of another data format."""
@@ -111,11 +112,11 @@ class ReadAnalogInput(Command[AnalogInput]):
     section = "2.4"
     title = "reading of one channel"
 
-    channel: layout.ChannelN
+    channel: parts.ChannelN
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 @frozen
@@ -131,7 +132,7 @@ class AnalogInputsHex(Response):
     section = "2.19"
     title = "readings of all channels in hex"
 
-    values: layout.HexValues
+    values: parts.HexValues
 
     def check(self, profile: Profile) -> None:
         """Refuse fields that are not those of the module's channels."""
@@ -149,6 +150,7 @@ class ReadAnalogInputsHex(Command[AnalogInputsHex]):
     syntax = "$AAA"
     section = "2.19"
     title = "reading of all channels in hex"
+    availability = Availability.SERIES_7017
 
 
 @frozen
@@ -165,11 +167,11 @@ class SetChannelMask(Command[Acknowledged]):
     section = "2.13"
     title = "channel mask"
 
-    mask: layout.Mask
+    mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 @frozen
@@ -185,12 +187,12 @@ class ChannelMask(Response):
     section = "2.14"
     title = "channel mask"
 
-    address: layout.Address
-    mask: layout.Mask
+    address: parts.Address
+    mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Command[ChannelMask]):
@@ -218,12 +220,12 @@ class Diagnostics(Response):
     section = "2.22"
     title = "channel diagnostics"
 
-    address: layout.Address
-    mask: layout.DiagnosticMask
+    address: parts.Address
+    mask: parts.DiagnosticMask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadDiagnostics(Command[Diagnostics]):
@@ -237,6 +239,7 @@ class ReadDiagnostics(Command[Diagnostics]):
     syntax = "$AAB"
     section = "2.22"
     title = "channel diagnostics"
+    availability = Availability.SERIES_7019
 
 
 @frozen
@@ -251,8 +254,8 @@ class ConnectingMode(Response):
     section = "2.42"
     title = "connecting mode"
 
-    address: layout.Address
-    single_ended: layout.FlagN = field(kw_only=True)
+    address: parts.Address
+    single_ended: parts.FlagN = field(kw_only=True)
 
 
 class ReadConnectingMode(Command[ConnectingMode]):
@@ -266,6 +269,7 @@ class ReadConnectingMode(Command[ConnectingMode]):
     syntax = "@AAS"
     section = "2.42"
     title = "connecting mode"
+    availability = Availability.SERIES_7017Z
 
 
 @frozen
@@ -280,5 +284,19 @@ class SetConnectingMode(Command[Acknowledged]):
     syntax = "@AASN"
     section = "2.43"
     title = "connecting mode"
+    availability = Availability.SERIES_7017Z
 
-    single_ended: layout.FlagN = field(kw_only=True)
+    single_ended: parts.FlagN = field(kw_only=True)
+
+
+COMMANDS = (
+    ReadAnalogInputs,
+    ReadAnalogInput,
+    SetChannelMask,
+    ReadChannelMask,
+    ReadAnalogInputsHex,
+    ReadDiagnostics,
+    ReadConnectingMode,
+    SetConnectingMode,
+)
+"""The commands of this module, by section."""

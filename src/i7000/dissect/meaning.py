@@ -132,8 +132,8 @@ class Meaning:
     @cached_property
     def models(self) -> tuple[Model, ...]:
         """The models that can have sent it, or been sent it."""
-        section = self.section
-        having = (it.model for it in self.fit.profiles if section not in it.refused)
+        sent: Any = self.command or self.message
+        having = (it.model for it in self.fit.profiles if sent.availability not in it.refused)
         return tuple(dict.fromkeys(having)) if self.protocol is Protocol.MODBUS_RTU else self.fit.models
 
     @property

@@ -16,7 +16,6 @@ from i7000.dissect.meaning import ChannelReading, Fit, Item, Meaning
 from i7000.dissect.registers import items
 from i7000.errors import DecodeError, Fault
 from i7000.modbus.request import EXCEPTION_BIT, LAST_ADDRESS
-from i7000.models import AVAILABILITY
 from i7000.profile import Profile
 
 __all__ = ["ModbusRead", "ModbusReader"]
@@ -98,10 +97,10 @@ class ModbusReader:
         touched = tuple(items(message, request, profile))
         readings = tuple(map(_reading, filter(_READING, touched)))
         facts = tuple(self._facts(found[0])) if readings else ()
-        section = (request or message).section
+        availability = (request or message).availability
         notes: tuple[str, ...] = ()
-        if profile and section in profile.refused:
-            notes = (f"{profile.name} has no {message.title} by Modbus: {AVAILABILITY[section].scope}",)
+        if profile and availability in profile.refused:
+            notes = (f"{profile.name} has no {message.title} by Modbus: {availability.scope}",)
         return Meaning(message, request, Fit(found), readings, touched, facts, notes)
 
     def _facts(self, profile: Profile) -> Iterator[Fact]:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 from i7000 import dcon
-from i7000.dcon.layout import Part
+from i7000.dcon.parts import Part
 
 __all__ = ["is_shaped", "plain_shapes", "report"]
 

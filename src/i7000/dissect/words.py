@@ -2,9 +2,16 @@
 
 from collections.abc import Iterable
 
-from i7000.models import AVAILABILITY, Model
+from i7000 import dcon, modbus
+from i7000.availability import Availability
+from i7000.models import Model
 
 __all__ = ["models_words"]
+
+
+_AVAILABILITY: dict[str, Availability] = {
+    kind.section: kind.availability for kinds in (dcon.COMMANDS, modbus.REQUESTS) for kind in kinds
+}
 
 
 def models_words(models: Iterable[Model], section: str) -> str:
@@ -16,8 +23,8 @@ def models_words(models: Iterable[Model], section: str) -> str:
     models = set(models)
     if models == set(Model):
         return "all models"
-    if section in AVAILABILITY and models == set(AVAILABILITY[section].gates):
-        return AVAILABILITY[section].scope
+    if section in _AVAILABILITY and models == set(_AVAILABILITY[section].gates):
+        return _AVAILABILITY[section].scope
     others = set(Model) - models
     few = min(models, others, key=len)
     names = ", ".join(model.value for model in Model if model in few)

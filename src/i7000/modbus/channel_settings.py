@@ -5,10 +5,11 @@ Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; oth
 
 from typing import Annotated
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
-from i7000.modbus.request import Message, Request, Response, SettingResult
+from i7000.modbus import items
+from i7000.modbus.request import Request, Response, SettingResult
 from i7000.profile import Profile
 from i7000.settings import Filter, channels_of, mask_of
 
@@ -32,17 +33,11 @@ __all__ = [
 FILTER_BIT, FAST_MODE_BIT = 0x80, 0x20
 
 
-def check_channel(sent: Message, channel: int, profile: Profile) -> None:
+def _check_channel(channel: int, profile: Profile, section: str) -> None:
     """Refuse a channel that the module does not have, or cannot set by itself."""
-    last = profile.channels - 1 if profile.individually_configurable else 0
-    if channel > last:
-        raise EncodeError("channel", channel, f"0..{last}: {profile.model.value}", sent.section)
-
-
-def check_mask(sent: Message, mask: int, profile: Profile) -> None:
-    """Refuse a mask with bits of channels that the module does not have."""
-    if mask >> profile.channels:
-        raise EncodeError("mask", f"{mask:X}", f"bits 0..{profile.channels - 1}: {profile.model.value}", sent.section)
+    if channel and not profile.individually_configurable:
+        raise EncodeError("channel", channel, f"0..0: {profile.model.value}", section)
+    profile.check_channel(channel, section)
 
 
 @frozen
@@ -57,7 +52,7 @@ class TypeCodeSetting(Response):
     section = "3.3.5"
     title = "type code"
 
-    type_code: layout.TypeCodeByte
+    type_code: items.TypeCodeByte
 
 
 @frozen
@@ -72,12 +67,13 @@ class ReadTypeCode(Request[TypeCodeSetting]):
     pdu = "46 07 00 channel"
     section = "3.3.5"
     title = "type code"
+    availability = Availability.M_SERIES
 
-    channel: layout.Byte
+    channel: items.Byte
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        _check_channel(self.channel, profile, self.section)
 
 
 class TypeCodeResult(SettingResult):
@@ -104,16 +100,15 @@ class SetTypeCode(Request[TypeCodeResult]):
     pdu = "46 08 00 channel type_code"
     section = "3.3.6"
     title = "type code"
+    availability = Availability.M_SERIES
 
-    channel: layout.Byte
-    type_code: layout.TypeCodeByte
+    channel: items.Byte
+    type_code: items.TypeCodeByte
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or type that the module does not have."""
-        check_channel(self, self.channel, profile)
-        if not profile.supports(self.type_code):
-            allowed = f"{profile.supported_types()}: {profile.model.value}"
-            raise EncodeError("type_code", f"{self.type_code:02X}", allowed, self.section)
+        _check_channel(self.channel, profile, self.section)
+        profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
@@ -129,7 +124,7 @@ class ChannelMask(Response):
     section = "3.3.8"
     title = "channel mask"
 
-    mask: layout.Mask
+    mask: items.Mask
 
     def reserved_bits(self, request: "ReadChannelMask", profile: Profile) -> int:  # noqa: ARG002 - of the module
         """Tell the bits that should be zero and are not: of channels that the module does not have."""
@@ -137,7 +132,7 @@ class ChannelMask(Response):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Request[ChannelMask]):
@@ -150,6 +145,7 @@ class ReadChannelMask(Request[ChannelMask]):
     pdu = "46 25"
     section = "3.3.8"
     title = "channel mask"
+    availability = Availability.M_SERIES
 
 
 class ChannelMaskResult(SettingResult):
@@ -177,12 +173,13 @@ class SetChannelMask(Request[ChannelMaskResult]):
     pdu = "46 26 mask:mask"
     section = "3.3.9"
     title = "channel mask"
+    availability = Availability.M_SERIES
 
-    mask: layout.Mask
+    mask: items.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 def _settings(settings: int) -> str:
@@ -194,7 +191,7 @@ def _settings(settings: int) -> str:
     return ", ".join(words)
 
 
-_SettingsByte = Annotated[int, layout.byte(_settings)]
+_SettingsByte = Annotated[int, items.byte(_settings)]
 
 
 @frozen
@@ -237,6 +234,7 @@ class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
     pdu = "46 29"
     section = "3.3.10"
     title = "miscellaneous settings"
+    availability = Availability.M_SERIES
 
 
 class MiscellaneousSettingsResult(SettingResult):
@@ -264,13 +262,25 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
     pdu = "46 2A settings"
     section = "3.3.11"
     title = "miscellaneous settings"
+    availability = Availability.M_SERIES
 
     settings: _SettingsByte
 
     def check(self, profile: Profile) -> None:
         """Refuse bits that the module does not have."""
-        bits = FILTER_BIT * profile.runs(profile.model.filter_from) | FAST_MODE_BIT * profile.model.fast_mode
+        bits = FILTER_BIT * profile.has_filter | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(
                 "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section
             )
+
+
+REQUESTS = (
+    ReadTypeCode,
+    SetTypeCode,
+    ReadChannelMask,
+    SetChannelMask,
+    ReadMiscellaneousSettings,
+    SetMiscellaneousSettings,
+)
+"""The requests of this module, by function and sub-function."""

@@ -9,9 +9,10 @@ from attrs import field
 
 from i7000 import message
 from i7000.arguments import check_type
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import Message, Request, Response, SettingResult
 from i7000.profile import Profile
 
@@ -30,10 +31,11 @@ __all__ = [
     "SetCjcUpdate",
 ]
 
-OFFSET_LIMIT = 0x1000
-"""The largest magnitude of a module's CJC offset."""
 FIRST_CHANNEL = 0x80
 """What channel 0 is where 0 is the module."""
+
+
+_LOW_BYTE = 0xFF
 
 
 def offset_in_celsius(channel: int, offset: int) -> float:
@@ -58,7 +60,7 @@ def _offset(channel: int, offset: int) -> str:
     return f"{offset_in_celsius(channel, offset):+.{1 if channel else 2}f} degC"
 
 
-_OffsetChannel = Annotated[int, layout.byte(_channel)]
+_OffsetChannel = Annotated[int, items.byte(_channel)]
 
 
 @frozen
@@ -74,7 +76,7 @@ class CjcOffset(Response):
     section = "3.3.12"
     title = "CJC offset"
 
-    offset: layout.SignedWord
+    offset: items.SignedWord
 
     def describe(self, request: message.Message | None = None) -> dict[str, str]:
         """Return the fields in words: the unit of the offset is known from `request`."""
@@ -107,6 +109,7 @@ class ReadCjcOffset(Request[CjcOffset]):
     pdu = "46 2B channel"
     section = "3.3.12"
     title = "CJC offset"
+    availability = Availability.M_7018_M_7019
 
     channel: _OffsetChannel
 
@@ -142,9 +145,10 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     pdu = "46 2C channel offset:2"
     section = "3.3.13"
     title = "CJC offset"
+    availability = Availability.M_7018_M_7019
 
     channel: _OffsetChannel
-    offset: layout.SignedWord
+    offset: items.SignedWord
 
     def describe(self, request: message.Message | None = None) -> dict[str, str]:  # noqa: ARG002 - it is a request
         """Return the fields in words."""
@@ -158,9 +162,10 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have, or an offset beyond its range."""
         check_offset_channel(self, self.channel, profile)
-        low, high = (0, 0xFF) if self.channel else (-OFFSET_LIMIT, OFFSET_LIMIT)
-        if not low <= self.offset <= high:
-            raise EncodeError("offset", self.offset, f"{low}..{high}", self.section)
+        if not self.channel:
+            profile.check_cjc_offset(self.offset, self.section)
+        elif not 0 <= self.offset <= _LOW_BYTE:
+            raise EncodeError("offset", self.offset, f"0..{_LOW_BYTE}", self.section)
 
 
 @frozen
@@ -175,7 +180,7 @@ class CjcEnabled(Response):
     section = "3.3.14"
     title = "CJC switch"
 
-    enabled: layout.Flag = field(kw_only=True)
+    enabled: items.Flag = field(kw_only=True)
 
 
 class ReadCjcEnabled(Request[CjcEnabled]):
@@ -188,6 +193,7 @@ class ReadCjcEnabled(Request[CjcEnabled]):
     pdu = "46 2D 00"
     section = "3.3.14"
     title = "CJC switch"
+    availability = Availability.M_7018_M_7019
 
 
 class CjcEnabledResult(SettingResult):
@@ -213,8 +219,9 @@ class SetCjcEnabled(Request[CjcEnabledResult]):
     pdu = "46 2E 00 enabled"
     section = "3.3.15"
     title = "CJC switch"
+    availability = Availability.M_7018_M_7019
 
-    enabled: layout.Flag = field(kw_only=True)
+    enabled: items.Flag = field(kw_only=True)
 
 
 @frozen
@@ -229,7 +236,7 @@ class CjcUpdateSetting(Response):
     section = "3.3.16"
     title = "CJC update setting"
 
-    update: layout.UpdateByte
+    update: items.UpdateByte
 
 
 class ReadCjcUpdate(Request[CjcUpdateSetting]):
@@ -242,6 +249,7 @@ class ReadCjcUpdate(Request[CjcUpdateSetting]):
     pdu = "46 2F"
     section = "3.3.16"
     title = "CJC update setting"
+    availability = Availability.M_7019
 
 
 class CjcUpdateResult(SettingResult):
@@ -267,5 +275,17 @@ class SetCjcUpdate(Request[CjcUpdateResult]):
     pdu = "46 30 update"
     section = "3.3.17"
     title = "CJC update setting"
+    availability = Availability.M_7019
 
-    update: layout.UpdateByte
+    update: items.UpdateByte
+
+
+REQUESTS = (
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadCjcEnabled,
+    SetCjcEnabled,
+    ReadCjcUpdate,
+    SetCjcUpdate,
+)
+"""The requests of this module, by function and sub-function."""

@@ -3,13 +3,13 @@
 Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
 """
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat, LineSettings
 
 __all__ = [
     "CommunicationSettings",
@@ -25,16 +25,6 @@ __all__ = [
 ]
 
 
-def check_line(line: LineSettings, profile: Profile, section: str) -> None:
-    """Refuse a line that the module cannot have."""
-    formats_from = profile.model.character_formats_from
-    if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
-        raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
-    if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
-        allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
-        raise EncodeError("character_format", line.character_format.name, allowed, section)
-
-
 @frozen
 class ModuleName(Response):
     """Tell the name of the series.
@@ -48,7 +38,7 @@ class ModuleName(Response):
     section = "3.3.1"
     title = "module name"
 
-    name: layout.Name
+    name: items.Name
 
     @property
     def series(self) -> str | None:
@@ -66,6 +56,7 @@ class ReadModuleName(Request[ModuleName]):
     pdu = "46 00"
     section = "3.3.1"
     title = "module name"
+    availability = Availability.M_SERIES
 
 
 class ModuleAddressResult(SettingResult):
@@ -93,8 +84,9 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     pdu = "46 04 new_address 00 00 00"
     section = "3.3.2"
     title = "module address"
+    availability = Availability.M_SERIES
 
-    new_address: layout.NewAddress
+    new_address: items.NewAddress
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
         """Refuse an address that no module has."""
@@ -114,8 +106,8 @@ class CommunicationSettings(Response):
     section = "3.3.3"
     title = "communication settings"
 
-    line_settings: layout.LineByte
-    protocol: layout.ProtocolByte
+    line_settings: items.LineByte
+    protocol: items.ProtocolByte
 
 
 class ReadCommunicationSettings(Request[CommunicationSettings]):
@@ -128,6 +120,7 @@ class ReadCommunicationSettings(Request[CommunicationSettings]):
     pdu = "46 05 00"
     section = "3.3.3"
     title = "communication settings"
+    availability = Availability.M_SERIES
 
 
 @frozen
@@ -142,8 +135,8 @@ class CommunicationSettingsResult(Response):
     section = "3.3.4"
     title = "communication settings"
 
-    line_result: layout.ResultByte
-    protocol_result: layout.ResultByte
+    line_result: items.ResultByte
+    protocol_result: items.ResultByte
 
 
 @frozen
@@ -158,13 +151,14 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
     pdu = "46 06 00 line_settings 00 00 00 protocol 00 00"
     section = "3.3.4"
     title = "communication settings"
+    availability = Availability.M_SERIES
 
-    line_settings: layout.LineByte
-    protocol: layout.ProtocolByte
+    line_settings: items.LineByte
+    protocol: items.ProtocolByte
 
     def check(self, profile: Profile) -> None:
         """Refuse a line that the module cannot have."""
-        check_line(self.line_settings, profile, self.section)
+        profile.check_line(self.line_settings, self.section)
 
 
 @frozen
@@ -179,9 +173,9 @@ class FirmwareVersion(Response):
     section = "3.3.7"
     title = "firmware version"
 
-    major: layout.Byte
-    minor: layout.Byte
-    build: layout.Byte
+    major: items.Byte
+    minor: items.Byte
+    build: items.Byte
 
     @property
     def firmware(self) -> Firmware | None:
@@ -199,3 +193,14 @@ class ReadFirmwareVersion(Request[FirmwareVersion]):
     pdu = "46 20"
     section = "3.3.7"
     title = "firmware version"
+    availability = Availability.M_SERIES
+
+
+REQUESTS = (
+    ReadModuleName,
+    SetModuleAddress,
+    ReadCommunicationSettings,
+    SetCommunicationSettings,
+    ReadFirmwareVersion,
+)
+"""The requests of this module, by function and sub-function."""

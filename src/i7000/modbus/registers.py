@@ -12,14 +12,14 @@ from typing import Any
 from attrs import evolve, field
 
 from i7000 import describe
+from i7000.availability import Availability
 from i7000.frozen import frozen
-from i7000.modbus.cold_junction import OFFSET_LIMIT
-from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates, series
-from i7000.profile import Profile
+from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates_of, series
+from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
 from i7000.settings import CjcUpdate, Filter, LineSettings, LogCommand, ModbusDataFormat, Protocol, is_int
 from i7000.type_codes import TypeCode
 
-__all__ = ["Access", "Area", "Kind", "Register", "WordOrder", "rows"]
+__all__ = ["Access", "Area", "Kind", "Register", "WordOrder"]
 
 
 class Area(Enum):
@@ -129,7 +129,7 @@ class Register:
         return f"{self.words(value)} {self.unit}" if self.unit else self.words(value)
 
 
-OPEN_WIRE: Gates = gates(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
+OPEN_WIRE: Gates = gates_of(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
 """Open wire detection by Modbus; M-7018R has it from an older firmware on by DCON (E68)."""
 _LAST_TYPE_CODE = 0x1C
 _RECORDS = 6
@@ -145,7 +145,7 @@ def rows(profile: Profile) -> tuple[Register, ...]:
     if Protocol.MODBUS_RTU not in profile.model.protocols:
         return ()
     found = list(_inputs(profile))
-    if "3.4" not in profile.refused:
+    if Availability.ADDRESS_MAP not in profile.refused:
         found += [*map(_alias, found), *_channels(profile), *_module(profile), *_coils(profile)]
         if profile.model is Model.M_7017mC_16:
             found += _logger()
@@ -166,7 +166,7 @@ def _printed_channels(profile: Profile) -> int:
 def _inputs(profile: Profile) -> Iterator[Register]:
     model, words = profile.model, Area.INPUT_REGISTER
     read = partial(Register, access=Access.READ)
-    if "3.1" not in profile.refused:
+    if Availability.RANGE_STATUS not in profile.refused:
         yield read("range_status", Area.DISCRETE_INPUT, 128, model.channels, kind=Kind.BOOL, minimum=0, maximum=1)
     yield read("analog_input", words, 0, _printed_channels(profile), kind=Kind.READING)
     if model is Model.M_7018_16:
@@ -185,8 +185,8 @@ def _holding(name: str, address: int, count: int = 1, **facts: Any) -> Register:
 _TYPE_CODE = partial(
     _holding, kind=Kind.CODE, minimum=0, maximum=_LAST_TYPE_CODE, values=TypeCode, words=describe.type_code
 )
-_OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=-OFFSET_LIMIT, maximum=OFFSET_LIMIT)
-_TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=-128, maximum=127)
+_OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=CJC_OFFSETS[0], maximum=CJC_OFFSETS[1])
+_TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=CHANNEL_OFFSETS[0], maximum=CHANNEL_OFFSETS[1])
 _MASK = partial(_holding, kind=Kind.BITS, minimum=0, words=describe.mask)
 
 
@@ -215,7 +215,7 @@ def _module(profile: Profile) -> Iterator[Register]:
     )  # fmt: skip
     if model.type_by_configuration:
         yield _TYPE_CODE("module_type_code", 486)
-    yield _holding("response_delay", 487, unit="ms", scale=1, minimum=0, maximum=30)
+    yield _holding("response_delay", 487, unit="ms", scale=1, minimum=RESPONSE_DELAYS[0], maximum=RESPONSE_DELAYS[1])
     yield _holding("host_watchdog_timeout", 488, unit="s", scale=0.1, minimum=0, maximum=255)
     yield _MASK("channel_mask", 489, maximum=(1 << min(_printed_channels(profile), 16)) - 1)
     if model.cjc:

@@ -8,7 +8,8 @@ from enum import IntEnum
 from typing import Annotated, ClassVar, Generic, TypeVar
 
 from i7000 import message
-from i7000.modbus.layout import Address, ExceptionFunction, Layout, ResultByte, byte
+from i7000.modbus.items import Address, ExceptionFunction, ResultByte, byte
+from i7000.modbus.layout import Layout
 
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
@@ -72,7 +73,7 @@ class Request(Message, Generic[R]):
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
-        cls.response = message.type_of_answer(cls)
+        cls.response = message.answer_of(cls)
         function, *rest = cls.pdu.split(" ")
         cls.function = int(function, 16)
         cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None

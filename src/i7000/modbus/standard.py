@@ -3,9 +3,10 @@
 Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kind before: 40489 is holding register 488.
 """
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import Request, Response
 from i7000.profile import Profile
 
@@ -45,7 +46,7 @@ class Coils(Response):
     section = "3.4"
     title = "coils"
 
-    values: layout.Bits
+    values: items.Bits
 
 
 @frozen
@@ -60,9 +61,10 @@ class ReadCoils(Request[Coils]):
     pdu = "01 start:2 count:2"
     section = "3.4"
     title = "coils"
+    availability = Availability.ADDRESS_MAP
 
-    start: layout.Word
-    count: layout.BitCount
+    start: items.Start
+    count: items.BitCount
 
 
 @frozen
@@ -78,7 +80,7 @@ class DiscreteInputs(Response):
     section = "3.1"
     title = "discrete inputs"
 
-    values: layout.Bits
+    values: items.Bits
 
 
 @frozen
@@ -93,9 +95,10 @@ class ReadDiscreteInputs(Request[DiscreteInputs]):
     pdu = "02 start:2 count:2"
     section = "3.1"
     title = "discrete inputs"
+    availability = Availability.RANGE_STATUS
 
-    start: layout.Word
-    count: layout.BitCount
+    start: items.Start
+    count: items.BitCount
 
 
 @frozen
@@ -111,7 +114,7 @@ class HoldingRegisters(Response):
     section = "3.4"
     title = "holding registers"
 
-    values: layout.Words
+    values: items.Words
 
 
 @frozen
@@ -126,9 +129,10 @@ class ReadHoldingRegisters(Request[HoldingRegisters]):
     pdu = "03 start:2 count:2"
     section = "3.4"
     title = "holding registers"
+    availability = Availability.ADDRESS_MAP
 
-    start: layout.Word
-    count: layout.WordCount
+    start: items.Start
+    count: items.WordCount
 
 
 @frozen
@@ -144,7 +148,7 @@ class InputRegisters(Response):
     section = "3.2"
     title = "input registers"
 
-    values: layout.Words
+    values: items.Words
 
 
 @frozen
@@ -159,9 +163,10 @@ class ReadInputRegisters(Request[InputRegisters]):
     pdu = "04 start:2 count:2"
     section = "3.2"
     title = "input registers"
+    availability = Availability.M_SERIES
 
-    start: layout.Word
-    count: layout.WordCount
+    start: items.Start
+    count: items.WordCount
 
 
 @frozen
@@ -176,8 +181,8 @@ class SingleCoilWritten(Response):
     section = "3.4"
     title = "coil"
 
-    coil: layout.Word
-    value: layout.Coil
+    coil: items.Word
+    value: items.Coil
 
 
 @frozen
@@ -192,10 +197,11 @@ class WriteSingleCoil(Request[SingleCoilWritten]):
     pdu = "05 coil:2 value:2"
     section = "3.4"
     title = "coil"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    coil: layout.Word
-    value: layout.Coil
+    coil: items.Word
+    value: items.Coil
 
 
 @frozen
@@ -210,8 +216,8 @@ class SingleRegisterWritten(Response):
     section = "3.4"
     title = "holding register"
 
-    register: layout.Word
-    value: layout.Word
+    register: items.Word
+    value: items.Word
 
 
 @frozen
@@ -225,10 +231,11 @@ class WriteSingleRegister(Request[SingleRegisterWritten]):
     pdu = "06 register:2 value:2"
     section = "3.4"
     title = "holding register"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    register: layout.Word
-    value: layout.Word
+    register: items.Word
+    value: items.Word
 
 
 @frozen
@@ -243,8 +250,8 @@ class MultipleCoilsWritten(Response):
     section = "3.4"
     title = "coils"
 
-    start: layout.Word
-    count: layout.WrittenBitCount
+    start: items.Start
+    count: items.WrittenBitCount
 
 
 @frozen
@@ -260,10 +267,11 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
     pdu = "0F start:2 count:2 bytes values:bits"
     section = "3.4"
     title = "coils"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    start: layout.Word
-    values: layout.WrittenBits
+    start: items.Start
+    values: items.WrittenBits
 
 
 @frozen
@@ -278,8 +286,8 @@ class MultipleRegistersWritten(Response):
     section = "3.4"
     title = "holding registers"
 
-    start: layout.Word
-    count: layout.WrittenWordCount
+    start: items.Start
+    count: items.WrittenWordCount
 
 
 @frozen
@@ -295,10 +303,11 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
     pdu = "10 start:2 count:2 bytes values:words"
     section = "3.4"
     title = "holding registers"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    start: layout.Word
-    values: layout.WrittenWords
+    start: items.Start
+    values: items.WrittenWords
 
     def check(self, profile: Profile) -> None:
         """Refuse more than the module takes at once."""
@@ -306,3 +315,16 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
         if profile.model.series == "7019" and count > _MOST_WRITTEN_TO_7019:
             allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write: {profile.model.value}"
             raise EncodeError("count", count, allowed, self.section)
+
+
+REQUESTS = (
+    ReadCoils,
+    ReadDiscreteInputs,
+    ReadHoldingRegisters,
+    ReadInputRegisters,
+    WriteSingleCoil,
+    WriteSingleRegister,
+    WriteMultipleCoils,
+    WriteMultipleRegisters,
+)
+"""The requests of this module, by function and sub-function."""

@@ -28,14 +28,13 @@ from i7000.dcon import (
     Refused,
     Response,
     encode,
-    layout,
+    parts,
 )
-from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
-from i7000.dcon.layout import Part
-from i7000.dcon.names import CHARACTERS, is_name
+from i7000.dcon.parts import Part
 from i7000.fields import FIELD_WIDTHS
-from i7000.models import AVAILABILITY
+from i7000.names import CHARACTERS, is_name
+from i7000.profile import CJC_OFFSETS
 from i7000.readings import encode_field
 from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
 
@@ -75,7 +74,7 @@ def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = No
 
 def commands(profile: Profile, *kinds: type[AnyCommand]) -> SearchStrategy[AnyCommand]:
     """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`, of all `kinds` that the module has."""
-    kinds = tuple(kind for kind in kinds or _COMMANDS if kind.section not in profile.refused)
+    kinds = tuple(kind for kind in kinds or _COMMANDS if kind.availability not in profile.refused)
     return _any_of(kinds, profile, accepted=True)
 
 
@@ -86,9 +85,8 @@ def any_commands(profile: Profile) -> SearchStrategy[AnyCommand]:
 
 def profiles_with(kind: type[AnyCommand]) -> SearchStrategy[Profile]:
     """Make profiles of modules that have a command."""
-    every = AVAILABILITY.get(kind.section)
-    models = [model for model in Model if every is None or model in every.gates]
-    return profiles(*models).filter(lambda profile: kind.section not in profile.refused)
+    models = [model for model in Model if model in kind.availability.gates]
+    return profiles(*models).filter(lambda profile: kind.availability not in profile.refused)
 
 
 @st.composite
@@ -180,9 +178,8 @@ def names() -> SearchStrategy[str]:
 
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
-    if part.width == len("SNNNN"):
-        limit = OFFSET_LIMIT if accepted else 0xFFFF
-        return st.integers(-limit, limit)
+    if part.signed:
+        return st.integers(*(CJC_OFFSETS if accepted else part.bounds or ()))
     if accepted and part in _LIMITS:
         return st.integers(0, _LIMITS[part](profile))
     digits = len(part.notation) if part.width is None else int(getattr(profile, str(part.width)))
@@ -195,12 +192,12 @@ def _part_of(annotation: Any) -> Part:  # noqa: ANN401 - an Annotated type
 
 
 _LIMITS: dict[Part, Callable[[Profile], int]] = {
-    _part_of(layout.ChannelN): lambda profile: profile.channels - 1,
-    _part_of(layout.ChannelI): lambda profile: profile.channels - 1,
-    _part_of(layout.CalibratedChannel): lambda profile: profile.channels - 1,
-    _part_of(layout.Mask): lambda profile: (1 << profile.channels) - 1,
-    _part_of(layout.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
-    _part_of(layout.Seconds): lambda _: LONGEST_TIMEOUT,
+    _part_of(parts.ChannelN): lambda profile: profile.channels - 1,
+    _part_of(parts.ChannelI): lambda profile: profile.channels - 1,
+    _part_of(parts.CalibratedChannel): lambda profile: profile.channels - 1,
+    _part_of(parts.Mask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(parts.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(parts.Seconds): lambda _: LONGEST_TIMEOUT,
 }
 """Where a module takes much less than the digits can say: not to be left to `check` alone."""
 
@@ -249,7 +246,8 @@ class Exchange:
 def exchanges(draw: st.DrawFn, *kinds: type[Command[Any]], profile: Profile | None = None) -> Exchange:
     """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the command."""
     asked = [kind for kind in kinds or _COMMANDS if issubclass(kind, Command)]
-    kind = draw(st.sampled_from([kind for kind in asked if profile is None or kind.section not in profile.refused]))
+    had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
+    kind = draw(st.sampled_from(had))
     profile = profile or draw(profiles_with(kind))
     command = cast("Command[Any]", draw(commands(profile, kind)))
     response: Response = draw(responses(command, profile))

@@ -12,7 +12,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import EncodeError, Fault, LineSettings, Model, Profile, Protocol, TypeCode
+from i7000 import EncodeError, LineSettings, Model, Profile, Protocol, TypeCode
 from i7000.modbus import (
     BROADCAST,
     REQUESTS,
@@ -31,10 +31,10 @@ from i7000.modbus import (
     WriteMultipleRegisters,
     encode,
     is_answered,
-    layout,
+    items,
 )
-from i7000.modbus.cold_junction import FIRST_CHANNEL, OFFSET_LIMIT
-from i7000.models import AVAILABILITY
+from i7000.modbus.cold_junction import FIRST_CHANNEL
+from i7000.profile import CJC_OFFSETS
 from i7000.strategies import vocabulary
 from i7000.strategies.vocabulary import line_settings, supported_types
 
@@ -70,8 +70,8 @@ def profiles(*, known_types: bool = False) -> SearchStrategy[Profile]:
 
 def profiles_with(kind: type[Request[Any]]) -> SearchStrategy[Profile]:
     """Make profiles of modules that have a request."""
-    models = [model for model in _MODELS if model in AVAILABILITY[kind.section].gates]
-    return vocabulary.profiles(*models).filter(lambda profile: kind.section not in profile.refused)
+    models = [model for model in _MODELS if model in kind.availability.gates]
+    return vocabulary.profiles(*models).filter(lambda profile: kind.availability not in profile.refused)
 
 
 # --- messages ---------------------------------------------------------------------------------------------------------
@@ -89,7 +89,8 @@ def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = No
 
 def requests(profile: Profile, *kinds: type[Request[Any]]) -> SearchStrategy[Request[Any]]:
     """Make requests that `i7000.modbus.encode` takes for `profile`, of all `kinds` that the module has."""
-    return _any_of([kind for kind in kinds or _REQUESTS if kind.section not in profile.refused], profile, accepted=True)
+    had = [kind for kind in kinds or _REQUESTS if kind.availability not in profile.refused]
+    return _any_of(had, profile, accepted=True)
 
 
 def any_requests(profile: Profile) -> SearchStrategy[Request[Any]]:
@@ -174,7 +175,7 @@ def _settable(  # noqa: PLR0911 - a table
         case "channel":
             return st.integers(0, profile.channels - 1 if profile.individually_configurable else 0)
         case "offset" if "channel" in values:
-            return st.integers(0, 0xFF) if values["channel"] else st.integers(-OFFSET_LIMIT, OFFSET_LIMIT)
+            return st.integers(0, 0xFF) if values["channel"] else st.integers(*CJC_OFFSETS)
         case "mask":
             return st.integers(0, (1 << profile.channels) - 1)
         case "settings":
@@ -199,10 +200,10 @@ def _part(  # noqa: PLR0911 - a table
     kind: type[Message], attribute: "Attribute[Any]", profile: Profile, values: dict[str, Any]
 ) -> SearchStrategy[Any]:
     """Make all that a field can be beside the `values` of others."""
-    item: layout.Item = cast("Any", attribute.type).__metadata__[0]
-    if attribute.type is layout.Address:
+    item: items.Item = cast("Any", attribute.type).__metadata__[0]
+    if attribute.type is items.Address:
         return st.sampled_from((*_ADDRESSES, *[BROADCAST] * 25)) if _can_be_broadcast(kind) else st.integers(1, 247)
-    if attribute.type is layout.Mask:
+    if attribute.type is items.Mask:
         return st.integers(0, 16**profile.mask_digits - 1)
     if item.values in _TYPES:
         return _TYPES[item.values]
@@ -214,7 +215,7 @@ def _part(  # noqa: PLR0911 - a table
         return _bits(counts) if item.accepts((True,)) else _words(counts)
     if item.bounds:
         low, high = item.bounds
-        return _count(min(high, room)) if item.fault is Fault.RANGE else st.integers(low, high)
+        return _count(min(high, room)) if item.role == "count" else st.integers(low, high)
     return st.binary(min_size=4, max_size=4)  # a name
 
 
@@ -259,7 +260,8 @@ class Exchange:
 def exchanges(draw: st.DrawFn, *kinds: type[Request[Any]], profile: Profile | None = None) -> Exchange:
     """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the request."""
     asked = kinds or _REQUESTS
-    kind = draw(st.sampled_from([kind for kind in asked if profile is None or kind.section not in profile.refused]))
+    had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
+    kind = draw(st.sampled_from(had))
     profile = profile or draw(profiles_with(kind))
     request = draw(requests(profile, kind).filter(is_answered))
     response: Response = draw(responses(request, profile))
