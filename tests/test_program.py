@@ -16,7 +16,6 @@ from time import monotonic
 
 import pytest
 
-import i7000_cli
 from i7000.cli import app
 from i7000.cli.text import Printer
 from i7000_cli import CLOSED, FAILED, INTERRUPTED, program, roomy
@@ -189,6 +188,12 @@ def test_a_full_disk_is_a_failure(capsys: pytest.CaptureFixture[str]) -> None:
     assert (code, capsys.readouterr().err) == (FAILED, NO_ROOM)
 
 
+def test_a_failure_that_was_reported_is_not_reported_again(capsys: pytest.CaptureFixture[str]) -> None:
+    code = written_to(os.open("/dev/full", os.O_WRONLY), lambda output: some(output) or FAILED)
+
+    assert (code, capsys.readouterr().err) == (FAILED, "")
+
+
 FRAMES = ["$012\\r"] * 300
 NO_ROOM = "the output cannot be written: No space left on device\n"
 
@@ -249,10 +254,13 @@ def test_what_ends_a_command_has_an_exit_code(
     assert capsys.readouterr() == ("", "")
 
 
-def test_a_command_without_an_output_writes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("arguments", "code"), [(["commands"], 0), (["decode", "nothing"], 1)])
+def test_a_command_without_an_output_writes_nothing(
+    arguments: list[str], code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(sys, "stdout", None)
 
-    assert program(lambda: app.run(["commands"])) == 0
+    assert program(lambda: app.run(arguments)) == code
 
 
 def test_a_terminal_that_is_gone_is_no_other_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -340,4 +348,4 @@ def test_the_exit_codes_are_those_that_the_help_names(capsys: pytest.CaptureFixt
     assert app.run(["--help"]) == 0
     told = " ".join(capsys.readouterr().out.split())
 
-    assert f"{i7000_cli.INTERRUPTED} after Ctrl-C, {i7000_cli.CLOSED} if nobody reads" in told
+    assert f"{FAILED} if the output cannot be written, {INTERRUPTED} after Ctrl-C, {CLOSED} if nobody reads" in told

@@ -21,7 +21,8 @@ __all__ = ["app", "run"]
 app = App(
     name="i7000",
     help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written."
-    "\n\nExit codes besides those of each command: 130 after Ctrl-C, 141 if nobody reads the output to its end.",
+    "\n\nExit codes besides those of each command: 2 if the output cannot be written, 130 after Ctrl-C, 141 if nobody"
+    " reads the output to its end.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
