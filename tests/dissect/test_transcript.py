@@ -4,13 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
+from tests.dissect.frames import REQUEST, RESPONSE
 from tests.dissect.spellings import BEFORE, WITHOUT_FRAMES
-
-REQUEST = modbus.seal(bytes.fromhex("010400000001"))
-RESPONSE = modbus.seal(bytes.fromhex("0104020b61"))
 
 
 def pieces_of(*lines: str) -> list[Piece]:

@@ -19,7 +19,7 @@ from i7000.dissect.in_text import in_text
 from i7000.dissect.plain import find_plain
 from i7000.dissect.spelling import decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
 
-__all__ = ["Line", "find", "read_line"]
+__all__ = ["Line", "find", "read_line", "without_end"]
 
 _TWICE_WITHIN = 4096
 """Characters of the longest line in which a frame is looked for in hex and as text beside it."""
@@ -34,6 +34,9 @@ class Line(NamedTuple):
     perhaps."""
 
 
+_NOTHING = Line((), b"")
+
+
 def find(text: str) -> tuple[Found, ...]:
     r"""Find the frames in a line.
 
@@ -44,10 +47,18 @@ def find(text: str) -> tuple[Found, ...]:
     >>> [found.wire.hex() for found in find("12:00:01 TX 01:04:00:00:00:01:31:CA -> ok")]
     ['01040000000131ca']
     """
+    text = without_end(text)
     plain = find_plain(text)
     return (Found(*plain),) if plain else read_line(text).found
 
 
+def without_end(text: str) -> str:
+    """Return a line without LF or CR LF at its end; a CR alone belongs to a frame."""
+    return text[:-1].removesuffix("\r") if text.endswith("\n") else text
+
+
+_SIGNS = re.compile(r"[0-9%#$~@!>?\\&]|[A-Fa-f](?<![0-9A-Za-z].)[A-Fa-f](?:[A-Fa-f]{2})*(?![0-9A-Za-z])", re.DOTALL)
+"""One of these is in every line that has a frame or bytes."""
 _LEFT_OVER = re.compile(r"\b(?:old_|extra |unexpected )data:")
 """Words of pymodbus, after which it repeats what it had received before."""
 
@@ -58,13 +69,16 @@ def read_line(text: str) -> Line:
     >>> read_line("recv: 0x1 0x4 0x2").part.hex()
     '010402'
     """
+    if not _SIGNS.search(text):
+        return _NOTHING
     left_over = _LEFT_OVER.search(text)
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
     runs = list(hex_runs(crossed))
+    wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
-    columns = [wire_of(run) for run in runs if len(run) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
+    columns = [wire for wire in wires if len(wire) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
     taken = bytearray(len(text))
     for found in _in_strings(text):
         if _repeats(found, text, columns):
@@ -75,8 +89,8 @@ def read_line(text: str) -> Line:
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
     if not good:
         for numbers in (loose_hex_runs, decimal_runs):
-            good += [found for run in numbers(crossed) for found in good_in_run(run)]
-    part = b"" if good else wire_of(max(runs, key=len, default=[]))
+            good += [found for run in numbers(crossed) if wire_of(run) not in wires for found in good_in_run(run)]
+    part = b"" if good else max(wires, key=len, default=b"")
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):

@@ -20,6 +20,7 @@ _SHORTEST_DAMAGED = modbus.SHORTEST_FRAME
 _SHORTEST_DAMAGED_WORD = 5
 """The same for bytes in one word, which is a number more often than not."""
 _FUNCTIONS = frozenset(request.function | bit for request in modbus.REQUESTS for bit in (0, 0x80))
+_CR = 0x0D
 _SHORTEST_COUNTING = 8
 """Bytes 00 01 02 ... from which on they are the head of a table."""
 
@@ -33,8 +34,11 @@ def frames_of(wire: bytes) -> list[Span]:
     >>> frames_of(bytes.fromhex("00 01040000000131ca 2430310d"))[0]
     (<Kind.MODBUS: 'modbus'>, 1, 9)
     """
+    ends = b"\r" in wire
+    if ends and wire[-1] == _CR and dcon.split(wire)[0] == (wire,) and is_shaped(wire[:-1].decode()):
+        return [(Kind.DCON, 0, len(wire))]
     found = _modbus_frames(wire)
-    if b"\r" not in wire or (found and found[0][1] == 0 and found[0][2] == len(wire)):
+    if not ends or found == [(Kind.MODBUS, 0, len(wire))]:
         return found
     taken = bytearray(len(wire))
     for _, start, end in found:
@@ -126,9 +130,7 @@ def _styles(text: str, run: Run) -> list[_Style]:
         marks = [_DECORATION.search(text, max(0, byte.start - 1), byte.end) for byte in run]
         decorations = [mark[0] if mark else "" for mark in marks]
     return [
-        _Style(
-            "".join(gap.split()) or gap[:1], max(before.word, byte.word), other.lower() if one == other else ""
-        )
+        _Style("".join(gap.split()) or gap[:1], max(before.word, byte.word), other.lower() if one == other else "")
         for before, byte, one, other in zip(run, run[1:], decorations, decorations[1:], strict=False)
         for gap in [text[before.end : byte.start]]
     ]

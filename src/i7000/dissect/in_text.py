@@ -15,7 +15,7 @@ _MAY_LEAD = re.compile(r"[%#$~@!>?\\]|&gt;")
 _UP_TO_END = re.compile(r".[ \"&-=A-}]*(?=[\r\n])")
 _WORD = re.compile(rf".[!-~]{{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
-_CUT = re.compile(r"[\"'`<,;|]|[-=]+>")
+_CUT = re.compile(r"[\"'`<,;|)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
 _ADDRESSED = re.compile(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
 _NUMBERED = re.compile(r">[+-]\d")

@@ -10,7 +10,17 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-__all__ = ["Byte", "Run", "decimal_runs", "hex_runs", "literal_runs", "loose_hex_runs", "text_of", "wire_of", "without_numbers"]
+__all__ = [
+    "Byte",
+    "Run",
+    "decimal_runs",
+    "hex_runs",
+    "literal_runs",
+    "loose_hex_runs",
+    "text_of",
+    "wire_of",
+    "without_numbers",
+]
 
 
 class Byte(NamedTuple):
@@ -58,7 +68,7 @@ _HEX = re.compile(
 _LOOSE_HEX = re.compile(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
 _DECIMAL = re.compile(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
 _BETWEEN = re.compile(r"[\W_]{0,8}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
-"""What can stand between two bytes: a few characters, among them one that shows the byte before or after in brackets."""
+"""What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
 _IN_A_ROW = re.compile(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
 """Numbers enough for a frame."""
@@ -178,13 +188,16 @@ def _character(one: re.Match[str], base: int) -> Byte:
     return Byte(value, *one.span(), 1)
 
 
-_ENDS = r"""
-    [(<\[{] (?: CR | cr | Cr ) [)>\]}] | [<\[{(] (?:0x)? 0?[dD] [>\]})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
-    | \\r | \^M | \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] | \u240d | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+_BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
+"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13."""
+_ENDS = rf"""
+    [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
+    | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5
+    | \$0D (?![0-9A-Za-z]) | \r
 """
-_LINE_FEEDS = r"""
-    [(<\[{] (?: LF | lf | Lf | NL ) [)>\]}] | [<\[{(] (?:0x)? 0?[aA] [>\]})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] | \u240a | \n
+_LINE_FEEDS = rf"""
+    [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
+    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
 """
 _SPELLED = re.compile(
     rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"

@@ -7,11 +7,11 @@ put together only where nothing else can be made of its parts.
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from i7000.dissect.finder import read_line
+from i7000 import dcon, modbus
+from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
-from i7000.modbus import LONGEST_FRAME
 
 __all__ = ["Piece", "pieces"]
 
@@ -45,7 +45,8 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
     [(1, 2, '01040000000131ca')]
     """
     parts: list[_Part] = []
-    for number, text in lines:
+    for number, line in lines:
+        text = without_end(line) if line[-1:] == "\n" else line
         plain = find_plain(text)
         if plain is not None:
             if parts:
@@ -54,13 +55,13 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
             yield Piece(number, number, text, plain[0], plain[1])
             continue
         found, part = read_line(text)
-        if not part:
+        if not part or not (parts or _begins(part)):
             yield from _apart(parts)
             parts = []
             yield from _of_line(number, text, found)
             continue
         parts.append(_Part(number, text, found, part))
-        while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
+        while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
             yield from _apart(parts[:1])
             del parts[0]
         whole = _whole(parts)
@@ -69,6 +70,11 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
             yield from _joined(parts[whole:])
             parts = []
     yield from _apart(parts)
+
+
+def _begins(wire: bytes) -> bool:
+    """Return whether bytes are a frame of which the end is missing."""
+    return wire in (modbus.split(wire)[1], dcon.split(wire)[1])
 
 
 def _whole(parts: list[_Part]) -> int | None:
