@@ -16,6 +16,7 @@ from typing import NamedTuple
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import SHORTEST_RUN, good_in_run, in_run
 from i7000.dissect.in_text import in_text
+from i7000.dissect.patterns import pattern
 from i7000.dissect.plain import find_plain
 from i7000.dissect.spelling import decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
 
@@ -57,9 +58,9 @@ def without_end(text: str) -> str:
     return text[:-1].removesuffix("\r") if text.endswith("\n") else text
 
 
-_SIGNS = re.compile(r"[0-9%#$~@!>?\\&]|[A-Fa-f](?<![0-9A-Za-z].)[A-Fa-f](?:[A-Fa-f]{2})*(?![0-9A-Za-z])", re.DOTALL)
+_SIGNS = pattern(r"[0-9%#$~@!>?\\&]|[A-Fa-f](?<![0-9A-Za-z].)[A-Fa-f](?:[A-Fa-f]{2})*(?![0-9A-Za-z])", re.DOTALL)
 """One of these is in every line that has a frame or bytes."""
-_LEFT_OVER = re.compile(r"\b(?:old_|extra |unexpected )data:")
+_LEFT_OVER = pattern(r"\b(?:old_|extra |unexpected )data:")
 """Words of pymodbus, after which it repeats what it had received before."""
 
 
