@@ -12,6 +12,7 @@ from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
+from i7000.dissect.repeats import is_repeat
 
 __all__ = ["Piece", "pieces"]
 
@@ -27,6 +28,8 @@ class Piece(NamedTuple):
     kind: Kind | None
     """None: there is no frame."""
     wire: bytes
+    same_as: int | None = None
+    """The line before, if it has the same frame and a logger printed that twice; see `i7000.dissect.repeats`."""
 
 
 class _Part(NamedTuple):
@@ -44,6 +47,24 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
     """
+    first = Piece(0, 0, "", None, b"")
+    last = 0
+    for piece in _pieces(lines):
+        if piece.wire and piece.wire in first.wire and piece.number == last + 1 and _repeats(first, piece):
+            yield piece._replace(same_as=first.number)
+        else:
+            yield piece
+            first = piece
+        last = piece.last
+
+
+def _repeats(first: Piece, piece: Piece) -> bool:
+    """Return whether a frame, or bytes from the middle of one, are those of a line before."""
+    is_same = piece.wire == first.wire or piece.kind is Kind.DAMAGED
+    return is_same and piece.text != first.text and is_repeat(first.text, piece.text)
+
+
+def _pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
     parts: list[_Part] = []
     for number, line in lines:
         text = without_end(line) if line[-1:] == "\n" else line
