@@ -18,7 +18,7 @@ from i7000.dissect.in_bytes import SHORTEST_RUN, good_in_run, in_run
 from i7000.dissect.in_text import in_text
 from i7000.dissect.patterns import pattern
 from i7000.dissect.plain import find_plain
-from i7000.dissect.spelling import decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
+from i7000.dissect.spelling import Run, decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
 
 __all__ = ["Line", "find", "read_line", "without_end"]
 
@@ -89,6 +89,7 @@ def read_line(text: str) -> Line:
     damaged = [found for found in candidates if found.kind is Kind.DAMAGED and _is_free(taken, found)]
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
     if not good:
+        crossed = _without_hex(crossed, runs)
         for numbers in (loose_hex_runs, decimal_runs):
             good += [found for run in numbers(crossed) if wire_of(run) not in wires for found in good_in_run(run)]
     part = b"" if good else max(wires, key=len, default=b"")
@@ -99,6 +100,26 @@ def read_line(text: str) -> Line:
             _take(taken, found)
             chosen.append(found)
     return Line(tuple(sorted(chosen, key=attrgetter("start"))), part)
+
+
+_LETTER = pattern("[A-Fa-f]")
+_DIGIT_ALONE = pattern(r"[0-9A-Fa-f](?<![0-9A-Za-z].)(?![0-9A-Za-z])", re.DOTALL)
+_SHORTEST_HEX = 4
+"""Bytes of a run that is hex beyond doubt if there is a letter in it."""
+
+
+def _without_hex(text: str, runs: list[Run]) -> str:
+    """Cross out the runs that can be nothing but hex, where all bytes have two digits."""
+    if _DIGIT_ALONE.search(text):
+        return text
+    kept: list[str] = []
+    at = 0
+    for run in runs:
+        start, end = run[0].start, run[-1].end
+        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, start, end):
+            kept += (text[at:start], "z" * (end - start))
+            at = end
+    return "".join((*kept, text[at:])) if kept else text
 
 
 def _longest_first(found: list[Found]) -> list[Found]:
