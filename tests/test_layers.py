@@ -37,7 +37,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "codecs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types",
+    "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 
