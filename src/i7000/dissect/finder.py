@@ -76,7 +76,7 @@ def read_line(text: str) -> Line:
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
-    runs = list(hex_runs(crossed))
+    runs = [_without_column(text, run) for run in hex_runs(crossed)]
     wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
     columns = [wire for wire in wires if len(wire) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
@@ -122,6 +122,21 @@ def _without_hex(text: str, runs: list[Run]) -> str:
     return "".join((*kept, text[at:])) if kept else text
 
 
+_COLUMNS = pattern(r"\s\s|\t|\|")
+"""What stands between the columns of a dump."""
+
+
+def _without_column(text: str, run: Run) -> Run:
+    """Take off the column that shows the bytes of a row as text, and has digits that could be bytes themselves."""
+    if run[-1].word == 1 or len(text) > _TWICE_WITHIN:
+        return run
+    for at in range(len(run) - 1, 0, -1):
+        end = run[at - 1].end
+        if _COLUMNS.search(text, end, run[at].start) and text.find(_shown(wire_of(run[:at])), end) >= 0:
+            return run[:at]
+    return run
+
+
 def _longest_first(found: list[Found]) -> list[Found]:
     """Of as long ones the first that was read stays first."""
     return sorted(found, key=lambda found: len(found.wire), reverse=True)
@@ -153,5 +168,10 @@ def _is_text(wire: bytes) -> bool:
 
 def _repeats(found: Found, text: str, columns: list[bytes]) -> bool:
     """Return whether a hex run of the line has the same bytes, or those that are shown as the same text."""
-    shown = text[found.start : found.end].encode("utf-8", "surrogateescape")
-    return any(found.wire in column or shown in column.translate(_DOTS) for column in columns)
+    written = text[found.start : found.end]
+    return any(found.wire in column or written in _shown(column) for column in columns)
+
+
+def _shown(wire: bytes) -> str:
+    """Return bytes as dumps show them."""
+    return wire.translate(_DOTS).decode()

@@ -13,7 +13,7 @@ __all__ = ["in_text"]
 _LEADING = pattern(r"[%#$~@!>?]")
 _MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
 _UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
-_WORD = pattern(rf".[!-~]{{0,{LONGEST_FRAME}}}")
+_WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
 _CUT = pattern(r"[\"'`<,;|)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""

@@ -46,8 +46,10 @@ def wire_of(run: Run) -> bytes:
 
 _DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
 _TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
+_UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
 _NUMBERS = pattern(
     rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
+    rf"|(?<!\w)\d+(?=\s?(?:{_UNIT})\b)"
     r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
     r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
 )
