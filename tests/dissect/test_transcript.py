@@ -4,13 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
-from tests.dissect.spellings import BEFORE, WITHOUT_FRAMES
-
-REQUEST = modbus.seal(bytes.fromhex("010400000001"))
-RESPONSE = modbus.seal(bytes.fromhex("0104020b61"))
+from tests.dissect.frames import DCON, MODBUS, REQUEST, RESPONSE
+from tests.dissect.spellings import BEFORE, DUMPS, WITHOUT_FRAMES
 
 
 def pieces_of(*lines: str) -> list[Piece]:
@@ -26,16 +23,17 @@ def test_an_answer_that_came_in_three_pieces_is_one_frame() -> None:
     assert (response.number, response.last, response.kind, response.wire) == (2, 4, Kind.MODBUS, RESPONSE)
 
 
-def test_a_report_in_several_rows_of_a_dump_is_one_frame() -> None:
-    wire = b">+0025.1+0025.3+0024.9+9999.9-0003.2+0101.7       +0025.0\r"
-    rows = [
-        f"{wire[at : at + 16].hex(' ')}    {wire[at : at + 16].decode().replace(chr(13), '.')}"
-        for at in range(0, len(wire), 16)
-    ]
+@pytest.mark.parametrize("name", DUMPS)
+def test_a_frame_in_a_dump_of_several_lines_is_one_frame(name: str) -> None:
+    found = {wire: [it.wire for it in pieces_of(*DUMPS[name](wire)) if it.kind] for wire in MODBUS + DCON}
 
-    (report,) = pieces_of(*rows)
+    assert found == {wire: [wire] for wire in MODBUS + DCON}
 
-    assert (report.number, report.last, report.kind, report.wire) == (1, 4, Kind.DCON, wire)
+
+def test_two_frames_in_dumps_are_two() -> None:
+    lines = [line for wire in (REQUEST, RESPONSE) for line in DUMPS["hexdump -C"](wire)]
+
+    assert [it.wire for it in pieces_of(*lines) if it.kind] == [REQUEST, RESPONSE]
 
 
 def test_noise_before_a_cut_frame_stays_a_piece_of_its_own() -> None:

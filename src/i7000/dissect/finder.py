@@ -16,10 +16,11 @@ from typing import NamedTuple
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import SHORTEST_RUN, good_in_run, in_run
 from i7000.dissect.in_text import in_text
+from i7000.dissect.patterns import pattern
 from i7000.dissect.plain import find_plain
-from i7000.dissect.spelling import decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
+from i7000.dissect.spelling import Run, decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
 
-__all__ = ["Line", "find", "read_line"]
+__all__ = ["Line", "find", "read_line", "without_end"]
 
 _TWICE_WITHIN = 4096
 """Characters of the longest line in which a frame is looked for in hex and as text beside it."""
@@ -34,6 +35,9 @@ class Line(NamedTuple):
     perhaps."""
 
 
+_NOTHING = Line((), b"")
+
+
 def find(text: str) -> tuple[Found, ...]:
     r"""Find the frames in a line.
 
@@ -44,11 +48,19 @@ def find(text: str) -> tuple[Found, ...]:
     >>> [found.wire.hex() for found in find("12:00:01 TX 01:04:00:00:00:01:31:CA -> ok")]
     ['01040000000131ca']
     """
+    text = without_end(text)
     plain = find_plain(text)
     return (Found(*plain),) if plain else read_line(text).found
 
 
-_LEFT_OVER = re.compile(r"\b(?:old_|extra |unexpected )data:")
+def without_end(text: str) -> str:
+    """Return a line without LF or CR LF at its end; a CR alone belongs to a frame."""
+    return text[:-1].removesuffix("\r") if text.endswith("\n") else text
+
+
+_SIGNS = pattern(r"[0-9%#$~@!>?\\&]|[A-Fa-f](?<![0-9A-Za-z].)[A-Fa-f](?:[A-Fa-f]{2})*(?![0-9A-Za-z])", re.DOTALL)
+"""One of these is in every line that has a frame or bytes."""
+_LEFT_OVER = pattern(r"\b(?:old_|extra |unexpected )data:")
 """Words of pymodbus, after which it repeats what it had received before."""
 
 
@@ -58,13 +70,16 @@ def read_line(text: str) -> Line:
     >>> read_line("recv: 0x1 0x4 0x2").part.hex()
     '010402'
     """
+    if not _SIGNS.search(text):
+        return _NOTHING
     left_over = _LEFT_OVER.search(text)
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
-    runs = list(hex_runs(crossed))
+    runs = [_without_column(text, run) for run in hex_runs(crossed)]
+    wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
-    columns = [wire_of(run) for run in runs if len(run) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
+    columns = [wire for wire in wires if len(wire) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
     taken = bytearray(len(text))
     for found in _in_strings(text):
         if _repeats(found, text, columns):
@@ -74,9 +89,10 @@ def read_line(text: str) -> Line:
     damaged = [found for found in candidates if found.kind is Kind.DAMAGED and _is_free(taken, found)]
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
     if not good:
+        crossed = _without_hex(crossed, runs)
         for numbers in (loose_hex_runs, decimal_runs):
-            good += [found for run in numbers(crossed) for found in good_in_run(run)]
-    part = b"" if good else wire_of(max(runs, key=len, default=[]))
+            good += [found for run in numbers(crossed) if wire_of(run) not in wires for found in good_in_run(run)]
+    part = b"" if good else max(wires, key=len, default=b"")
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):
@@ -84,6 +100,41 @@ def read_line(text: str) -> Line:
             _take(taken, found)
             chosen.append(found)
     return Line(tuple(sorted(chosen, key=attrgetter("start"))), part)
+
+
+_LETTER = pattern("[A-Fa-f]")
+_DIGIT_ALONE = pattern(r"[0-9A-Fa-f](?<![0-9A-Za-z].)(?![0-9A-Za-z])", re.DOTALL)
+_SHORTEST_HEX = 4
+"""Bytes of a run that is hex beyond doubt if there is a letter in it."""
+
+
+def _without_hex(text: str, runs: list[Run]) -> str:
+    """Cross out the runs that can be nothing but hex, where all bytes have two digits."""
+    if _DIGIT_ALONE.search(text):
+        return text
+    kept: list[str] = []
+    at = 0
+    for run in runs:
+        start, end = run[0].start, run[-1].end
+        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, start, end):
+            kept += (text[at:start], "z" * (end - start))
+            at = end
+    return "".join((*kept, text[at:])) if kept else text
+
+
+_COLUMNS = pattern(r"\s\s|\t|\|")
+"""What stands between the columns of a dump."""
+
+
+def _without_column(text: str, run: Run) -> Run:
+    """Take off the column that shows the bytes of a row as text, and has digits that could be bytes themselves."""
+    if run[-1].word == 1 or len(text) > _TWICE_WITHIN:
+        return run
+    for at in range(len(run) - 1, 0, -1):
+        end = run[at - 1].end
+        if _COLUMNS.search(text, end, run[at].start) and text.find(_shown(wire_of(run[:at])), end) >= 0:
+            return run[:at]
+    return run
 
 
 def _longest_first(found: list[Found]) -> list[Found]:
@@ -117,5 +168,10 @@ def _is_text(wire: bytes) -> bool:
 
 def _repeats(found: Found, text: str, columns: list[bytes]) -> bool:
     """Return whether a hex run of the line has the same bytes, or those that are shown as the same text."""
-    shown = text[found.start : found.end].encode("utf-8", "surrogateescape")
-    return any(found.wire in column or shown in column.translate(_DOTS) for column in columns)
+    written = text[found.start : found.end]
+    return any(found.wire in column or written in _shown(column) for column in columns)
+
+
+def _shown(wire: bytes) -> str:
+    """Return bytes as dumps show them."""
+    return wire.translate(_DOTS).decode()

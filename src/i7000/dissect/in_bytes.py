@@ -1,12 +1,13 @@
 """Frames of both protocols in a run of bytes that a line spells, and what stands beside them in the same spelling."""
 
-import re
 from collections.abc import Iterator
+from functools import cache
 from itertools import groupby
 from typing import NamedTuple
 
 from i7000 import dcon, modbus
 from i7000.dissect.found import Found, Kind
+from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped
 from i7000.dissect.spelling import Run, wire_of
 from i7000.errors import Noise
@@ -19,7 +20,7 @@ _SHORTEST_DAMAGED = modbus.SHORTEST_FRAME
 """Bytes, each a word of its own, from which on they are a damaged frame if nothing else can be made of them."""
 _SHORTEST_DAMAGED_WORD = 5
 """The same for bytes in one word, which is a number more often than not."""
-_FUNCTIONS = frozenset(request.function | bit for request in modbus.REQUESTS for bit in (0, 0x80))
+_CR = 0x0D
 _SHORTEST_COUNTING = 8
 """Bytes 00 01 02 ... from which on they are the head of a table."""
 
@@ -33,8 +34,11 @@ def frames_of(wire: bytes) -> list[Span]:
     >>> frames_of(bytes.fromhex("00 01040000000131ca 2430310d"))[0]
     (<Kind.MODBUS: 'modbus'>, 1, 9)
     """
+    ends = b"\r" in wire
+    if ends and wire[-1] == _CR and dcon.split(wire)[0] == (wire,) and is_shaped(wire[:-1].decode()):
+        return [(Kind.DCON, 0, len(wire))]
     found = _modbus_frames(wire)
-    if b"\r" not in wire or (found and found[0][1] == 0 and found[0][2] == len(wire)):
+    if not ends or found == [(Kind.MODBUS, 0, len(wire))]:
         return found
     taken = bytearray(len(wire))
     for _, start, end in found:
@@ -116,7 +120,7 @@ class _Style(NamedTuple):
     """What marks it as hex, if it is the same for both."""
 
 
-_DECORATION = re.compile(r"[$%=&]|0[xX]|[hH]\b")
+_DECORATION = pattern(r"[$%=&]|0[xX]|[hH]\b")
 
 
 def _styles(text: str, run: Run) -> list[_Style]:
@@ -172,9 +176,15 @@ def _grouped(style: _Style) -> _Style:
     return style._replace(between=style.between.strip())
 
 
+@cache
+def _functions() -> frozenset[int]:
+    """All function codes, of requests and of exceptions."""
+    return frozenset(request.function | bit for request in modbus.REQUESTS for bit in (0, 0x80))
+
+
 def _may_be_a_frame(run: Run) -> bool:
     if len(run) >= _SHORTEST_COUNTING and wire_of(run) == bytes(range(min(len(run), 256))):
         return False
     if max(byte.word for byte in run) == 1:
         return len(run) >= _SHORTEST_DAMAGED
-    return len(run) >= _SHORTEST_DAMAGED_WORD and 0 < run[0].value < 0xF8 and run[1].value in _FUNCTIONS
+    return len(run) >= _SHORTEST_DAMAGED_WORD and 0 < run[0].value < 0xF8 and run[1].value in _functions()

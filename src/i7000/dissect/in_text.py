@@ -1,24 +1,24 @@
 """DCON frames that a line writes as text, with any spelling of the carriage return, or with none."""
 
-import re
 from collections.abc import Iterator
 
 from i7000.dcon import LONGEST_FRAME
 from i7000.dissect.found import Found, Kind
+from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped, report
 from i7000.dissect.spelling import text_of
 
 __all__ = ["in_text"]
 
-_LEADING = re.compile(r"[%#$~@!>?]")
-_MAY_LEAD = re.compile(r"[%#$~@!>?\\]|&gt;")
-_UP_TO_END = re.compile(r".[ \"&-=A-}]*(?=[\r\n])")
-_WORD = re.compile(rf".[!-~]{{0,{LONGEST_FRAME}}}")
+_LEADING = pattern(r"[%#$~@!>?]")
+_MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
+_UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
+_WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
-_CUT = re.compile(r"[\"'`<,;|]|[-=]+>")
+_CUT = pattern(r"[\"'`<,;|)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
-_ADDRESSED = re.compile(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
-_NUMBERED = re.compile(r">[+-]\d")
+_ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
+_NUMBERED = pattern(r">[+-]\d")
 
 
 def in_text(text: str) -> Iterator[Found]:

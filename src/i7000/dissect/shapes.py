@@ -20,6 +20,7 @@ _FIELDS = rf"(?:(?:\x20{{4}})*{_HEX}(?:{_HEX}|\x20{{4}})*|(?:{_NUMBER}|{_SENTINE
 _WIDTHS = {"channel_digits": "{1,2}", "mask_digits": "{2,6}"}
 _NAME = r"[^\s%#$~@!>?]{1,6}"
 _RESTS = {"values": _FIELDS, "value": _FIELDS, "name": _NAME, "version": r"[A-Z]\d+\.\d+"}
+_SIGNED = {"offset": "[+-][0-9A-F]{4}", "temperature": r"[+-]\d{4}\.\d"}
 _CHECKSUM = r"(?:[0-9A-F]{2})?"
 
 
@@ -33,8 +34,8 @@ def _piece(name: str, piece: str | Part) -> str:
         return re.escape(piece)
     if piece.width == "rest":
         return _RESTS[name]
-    if name in ("offset", "temperature"):
-        return rf"[+-][0-9A-F.]{{{piece.width - 1}}}"  # type: ignore[operator] # both have a fixed width
+    if name in _SIGNED:
+        return _SIGNED[name]
     width = len(piece.notation) if piece.width is None else piece.width
     return "[0-9A-F]" + (_WIDTHS[width] if isinstance(width, str) else f"{{{width}}}")
 

@@ -10,7 +10,19 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-__all__ = ["Byte", "Run", "decimal_runs", "hex_runs", "literal_runs", "loose_hex_runs", "text_of", "wire_of", "without_numbers"]
+from i7000.dissect.patterns import pattern
+
+__all__ = [
+    "Byte",
+    "Run",
+    "decimal_runs",
+    "hex_runs",
+    "literal_runs",
+    "loose_hex_runs",
+    "text_of",
+    "wire_of",
+    "without_numbers",
+]
 
 
 class Byte(NamedTuple):
@@ -34,8 +46,10 @@ def wire_of(run: Run) -> bytes:
 
 _DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
 _TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
-_NUMBERS = re.compile(
+_UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
+_NUMBERS = pattern(
     rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
+    rf"|(?<!\w)\d+(?=\s?(?:{_UNIT})\b)"
     r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
     r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
 )
@@ -47,7 +61,7 @@ def without_numbers(text: str) -> str:
     return _NUMBERS.sub(lambda found: "z" * len(found[0]), text)
 
 
-_HEX = re.compile(
+_HEX = pattern(
     r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]|u00)([0-9A-Fa-f]{2})"
     r"|(?<![0-9A-Za-z].)(?:(?<=0)[xX]|(?<=&)[hH]|(?<=1)6#)((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=0)[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
@@ -55,12 +69,12 @@ _HEX = re.compile(
     re.DOTALL,
 )
 """A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
-_LOOSE_HEX = re.compile(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
-_DECIMAL = re.compile(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
-_BETWEEN = re.compile(r"[\W_]{0,8}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
-"""What can stand between two bytes: a few characters, among them one that shows the byte before or after in brackets."""
+_LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
+_DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
+_BETWEEN = pattern(r"[\W_]{0,8}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
+"""What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
-_IN_A_ROW = re.compile(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
+_IN_A_ROW = pattern(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
 """Numbers enough for a frame."""
 
 
@@ -124,10 +138,10 @@ _LETTERS = {
     "a": 7, "b": 8, "t": 9, "n": 10, "v": 11, "f": 12, "r": 13, "e": 27, "s": 32,
     "\\": 0x5C, "'": 0x27, '"': 0x22,
 }  # fmt: skip
-_C = re.compile(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
-_LABVIEW = re.compile(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
-_QUOTES = re.compile(r"""(?s)\\.|["'`]""")
-_BARE = re.compile(r"\\.*\\[^\s\"'`\])}>,;]*")
+_C = pattern(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
+_LABVIEW = pattern(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
+_QUOTES = pattern(r"""(?s)\\.|["'`]""")
+_BARE = pattern(r"\\.*\\[^\s\"'`\])}>,;]*")
 """Characters from the first escape to the end of the last."""
 
 
@@ -178,20 +192,23 @@ def _character(one: re.Match[str], base: int) -> Byte:
     return Byte(value, *one.span(), 1)
 
 
-_ENDS = r"""
-    [(<\[{] (?: CR | cr | Cr ) [)>\]}] | [<\[{(] (?:0x)? 0?[dD] [>\]})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
-    | \\r | \^M | \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] | \u240d | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+_BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
+"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13."""
+_ENDS = rf"""
+    [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
+    | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5
+    | \$0D (?![0-9A-Za-z]) | \r
 """
-_LINE_FEEDS = r"""
-    [(<\[{] (?: LF | lf | Lf | NL ) [)>\]}] | [<\[{(] (?:0x)? 0?[aA] [>\]})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] | \u240a | \n
+_LINE_FEEDS = rf"""
+    [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
+    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
 """
-_SPELLED = re.compile(
+_SPELLED = pattern(
     rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"
     r"| \\x(?P<hex>[0-9A-Fa-f]{2}) | \\u00(?P<unicode>[0-9A-Fa-f]{2}) | \\(?P<octal>[0-3][0-7]{2})"
     r"| (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)"
 )
-_MAY_SPELL = re.compile(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
+_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
 """How all of these begin."""
 _CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
 

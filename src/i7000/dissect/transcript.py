@@ -7,12 +7,13 @@ put together only where nothing else can be made of its parts.
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from i7000 import dcon, modbus
 from i7000.dissect.damage import in_place_of_a_frame
-from i7000.dissect.finder import read_line
+from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
-from i7000.modbus import LONGEST_FRAME
+from i7000.dissect.repeats import is_repeat
 from i7000.settings import Protocol
 
 __all__ = ["Piece", "pieces"]
@@ -29,6 +30,8 @@ class Piece(NamedTuple):
     kind: Kind | None
     """None: there is no frame."""
     wire: bytes
+    same_as: int | None = None
+    """The line before, if it has the same frame and a logger printed that twice; see `i7000.dissect.repeats`."""
 
 
 class _Part(NamedTuple):
@@ -49,8 +52,27 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
     """
+    first = Piece(0, 0, "", None, b"")
+    last = 0
+    for piece in _pieces(lines, protocol):
+        if piece.wire and piece.wire in first.wire and piece.number == last + 1 and _repeats(first, piece):
+            yield piece._replace(same_as=first.number)
+        else:
+            yield piece
+            first = piece
+        last = piece.last
+
+
+def _repeats(first: Piece, piece: Piece) -> bool:
+    """Return whether a frame, or bytes from the middle of one, are those of a line before."""
+    is_same = piece.wire == first.wire or piece.kind is Kind.DAMAGED
+    return is_same and piece.text != first.text and is_repeat(first.text, piece.text)
+
+
+def _pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None) -> Iterator[Piece]:
     parts: list[_Part] = []
-    for number, text in lines:
+    for number, line in lines:
+        text = without_end(line) if line[-1:] == "\n" else line
         plain = find_plain(text)
         if plain is not None:
             if parts:
@@ -59,13 +81,13 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
             yield Piece(number, number, text, plain[0], plain[1])
             continue
         found, part = read_line(text)
-        if not part:
+        if not part or not (parts or _begins(part)):
             yield from _apart(parts, protocol)
             parts = []
             yield from _of_line(number, text, found, protocol)
             continue
         parts.append(_Part(number, text, found, part))
-        while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
+        while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
             yield from _apart(parts[:1], protocol)
             del parts[0]
         whole = _whole(parts)
@@ -74,6 +96,11 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
             yield from _joined(parts[whole:])
             parts = []
     yield from _apart(parts, protocol)
+
+
+def _begins(wire: bytes) -> bool:
+    """Return whether bytes are a frame of which the end is missing."""
+    return wire in (modbus.split(wire)[1], dcon.split(wire)[1])
 
 
 def _whole(parts: list[_Part]) -> int | None:
