@@ -6,7 +6,6 @@ numbers (40489) are refused, since frames have addresses (488), and the address 
 
 import re
 from collections.abc import Mapping
-from enum import Enum
 from typing import Any
 
 from i7000 import EncodeError, LineSettings, TypeCode, modbus
@@ -160,27 +159,29 @@ def _items(kind: type[Message], address: int, text: str, registers: RegisterMap)
     row = _row(kind, address, registers)
     number = Register("", row.area, address).number
     try:
-        value = _value(row, number, text, registers)
+        value = _value(row, text)
     except UsageError as error:
         raise UsageError(f"{row.name}: {error}") from None
     try:
         request: Any = registers.write(1, number, value)
     except EncodeError as refusal:
-        raise EncodeError(row.name, text, refusal.allowed, refusal.section, f"{row.name} cannot be {text}") from None
+        reason = f"{row.name} cannot be {text}"
+        raise EncodeError(row.name, text, refusal.allowed, refusal.section, reason) from None
     return request.values if isinstance(request, modbus.WriteMultipleRegisters) else (request.value,)
 
 
-def _value(row: Register, number: str, text: str, registers: RegisterMap) -> Any:  # noqa: ANN401
-    """Read a value: of the kind that the map decodes there."""
-    example = registers.decode(number, (max(row.minimum or 0, 0),) * row.kind.width)
-    if isinstance(example, TypeCode):
+def _value(row: Register, text: str) -> Any:  # noqa: ANN401
+    """Read a value of a row, as the row describes it."""
+    if text in row.labels:
+        return row.labels.index(text)
+    if row.values is TypeCode:
         return type_code(text)
-    if isinstance(example, LineSettings):
-        return hex_byte(text)
-    if isinstance(example, bool):
+    if row.values is LineSettings:
+        return LineSettings.from_byte(hex_byte(text))
+    if row.values:
+        return member(text, row.values)
+    if row.kind is Kind.BOOL:
         return truth(text)
-    if isinstance(example, Enum):
-        return member(text, type(example))
     scale = Scale(row.unit or "", round(1 / (row.scale or 1)))
     read = counts(text, scale)
     if is_hex(text) and row.kind in (Kind.INT8, Kind.INT16):
