@@ -121,6 +121,7 @@ def _messages() -> Iterator[Call]:
                 values = {it.name: getattr(found[kind], it.name) for it in fields(kind)}
                 keywords = {it.name: values.pop(it.name) for it in fields(kind) if it.kw_only}
                 yield call(f"{module}.{name}", *values.values(), **keywords)
+                yield call(f"{module}.{name}.describe", None, on=found[kind])
 
 
 _I7018 = Profile(Model.I_7018)
@@ -152,10 +153,19 @@ CALLS = (
     call("i7000.DataFormat.of", 1, on=DataFormat),
     call("i7000.TypeCode.of", 15, on=TypeCode),
     call("i7000.Firmware", "B3.7"),
+    call("i7000.Firmware.from_bytes", bytes((0x0B, 3, 7)), on=Firmware),
     call("i7000.LineSettings", *_fields_of(i7000.LineSettings()).values()),
     call("i7000.LineSettings.from_byte", 6),
     call("i7000.Model.find", "I-7018", on=Model),
+    call("i7000.Model.series_of", bytes.fromhex("00701900"), on=Model),
     call("i7000.Profile", Model.M_7017, **{k: v for k, v in _fields_of(Profile(Model.M_7017)).items() if k != "model"}),
+    call("i7000.Profile.check_channel", 1, "2.4", on=_I7018),
+    call("i7000.Profile.check_cjc_offset", 1, "2.18", on=_I7018),
+    call("i7000.Profile.check_line", i7000.LineSettings(), "1.11", on=_I7018),
+    call("i7000.Profile.check_mask", 1, "2.13", on=_I7018),
+    call("i7000.Profile.check_name", "7018", "2.33", on=_I7018),
+    call("i7000.Profile.check_report", i7000.ReportSettings(), "1.11", on=_I7018),
+    call("i7000.Profile.check_type_code", 5, "2.15", field="type_code", on=_I7018),
     call("i7000.Profile.has", CONFIGURABLE, on=_I7018),
     call("i7000.Profile.runs", Firmware("B3.7"), on=_I7018),
     call("i7000.Profile.supports", 5, on=_I7018),
@@ -258,6 +268,8 @@ LEFT_OUT = {
         _HANDED_OUT,
     ),
     "host.Ended": _BASE,
+    **{f"{kind.__module__.split('.')[1]}.{kind.__name__}.describe": _BASE for kind in BASES},
+    "modbus.Register.describe": "describes what `RegisterMap.decode` gave",
     **dict.fromkeys(
         [name for name in surface() if name.endswith((".check", ".reserved_bits"))],
         _BY_ENCODE,

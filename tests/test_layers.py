@@ -17,6 +17,7 @@ RINGS = {
     "describe": 1,
     "fields": 1,
     "models": 1,
+    "names": 1,
     "profile": 1,
     "readings": 2,
     "message": 2,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from attrs import field
 
-from i7000.arguments import check_type
+from i7000.arguments import as_bytes, check_type
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
 from i7000.settings import Protocol
@@ -74,6 +74,9 @@ class Firmware:
         >>> Firmware.from_bytes(bytes((0x0B, 4, 5))), Firmware.from_bytes(bytes((4, 5, 0)))
         (Firmware('B4.5'), None)
         """
+        version = as_bytes("version", version)
+        if len(version) != len("abc"):
+            raise EncodeError("version", version, "3 bytes", "3.3.7")
         letter, major, minor = version
         if not 10 <= letter < 36 or major > 9 or minor > 99:
             return None
@@ -121,6 +124,8 @@ class Model(Enum):
     M_7019R = "M-7019R"
     M_7019Z = "M-7019Z"
 
+    __hash__ = object.__hash__  # as equality, which is identity; that of `Enum` takes a call in Python
+
     @classmethod
     def find(cls, name: str) -> "Model":
         """The model of that name, in any case; I-7019 and M-7019 are the R models, the only ones there are (E36).
@@ -150,7 +155,7 @@ class Model(Enum):
         >>> Model.series_of(bytes.fromhex("00701900"))
         '7019'
         """
-        return _SERIES.get(name)
+        return _SERIES.get(as_bytes("name", name))
 
     @property
     def modbus_name(self) -> bytes:

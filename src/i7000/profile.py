@@ -1,22 +1,41 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 from attrs import field
 
-from i7000.arguments import check_type
+from i7000.arguments import check_int, check_type
 from i7000.errors import EncodeError
 from i7000.fields import TEXT_WIDTH
 from i7000.frozen import frozen
 from i7000.models import AVAILABILITY, CONFIGURABLE, Firmware, Gates, Model
-from i7000.settings import DataFormat, ModbusDataFormat, Protocol
+from i7000.names import LONGEST_NAME, is_name
+from i7000.settings import (
+    BaudRate,
+    CharacterFormat,
+    DataFormat,
+    Filter,
+    LineSettings,
+    ModbusDataFormat,
+    Protocol,
+    ReportSettings,
+)
 from i7000.type_codes import TypeCode, Unit
 
 __all__ = ["Profile"]
 
 LAST_LEGACY = Firmware("B1.4")
 """The last firmware of the I-7018 series with readings out of range in five characters (E49)."""
+
+
+CJC_OFFSETS = (-0x1000, 0x1000)
+"""The CJC offsets of a module and, on the 7019 series, of a channel, in counts of 0.01 degC (2.18, 3.4)."""
+CHANNEL_OFFSETS = (-0x80, 0x7F)
+"""The other offsets of a channel, in counts of 0.1 degC (3.4; E62)."""
+RESPONSE_DELAYS = (0, 30)
+"""Milliseconds that a module can wait before it responds by Modbus (3.4)."""
 
 
 class Numbers(NamedTuple):
@@ -71,24 +90,24 @@ class Profile:
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
-        default = self.model.default_type if isinstance(self.model, Model) else None
-        return () if default is None else (default,) * _channels(self)
+        known = isinstance(self.model, Model) and isinstance(self.single_ended, bool)
+        return _places(self.model, single_ended=self.single_ended).types if known else ()
 
     def __attrs_post_init__(self) -> None:
         self._check_kinds()
         derive = object.__setattr__
-        channels = _channels(self)
+        channels, channel_digits, mask_digits, _ = _places(self.model, single_ended=self.single_ended)
         derive(self, "channels", channels)
-        derive(self, "channel_digits", 2 if self.single_ended else 1)
-        derive(self, "mask_digits", (channels + 7) // 8 * 2)
-        old = self.firmware is not None and self.firmware <= LAST_LEGACY
-        derive(self, "legacy_sentinels", old and self.model.value.startswith("I-7018"))
-        refused = frozenset(section for section, it in AVAILABILITY.items() if not self.has(it.gates))
+        derive(self, "channel_digits", channel_digits)
+        derive(self, "mask_digits", mask_digits)
+        legacy, refused = _gated(self.model, self.firmware)
+        derive(self, "legacy_sentinels", legacy)
         derive(self, "refused", refused)
-        self._check_types()
-        derive(self, "units", tuple(code.unit for code in self.type_codes))
-        engineering = self.data_format is DataFormat.ENGINEERING and len(set(self.type_codes)) == 1
-        derive(self, "numbers", _numbers(self.type_codes[0], channels) if engineering else None)
+        if not {TypeCode}.issuperset(map(type, self.type_codes)):
+            raise self._unknown_type()
+        units, numbers = _types(self.type_codes, channels, self.model, self.firmware)
+        derive(self, "units", units)
+        derive(self, "numbers", numbers if self.data_format is DataFormat.ENGINEERING else None)
 
     @property
     def name(self) -> str:
@@ -103,16 +122,13 @@ class Profile:
 
     def runs(self, firmware: Firmware | None) -> bool:
         """Whether the firmware is `firmware` or a later one."""
-        if firmware is None:
-            return True
-        check_type("firmware", firmware, Firmware)
-        return self.firmware is None or self.firmware >= firmware
+        check_type("firmware", firmware, Firmware, optional=True)
+        return _runs(self.firmware, firmware)
 
     def supports(self, type_code: int) -> bool:
         """Whether the module can be set to `type_code`."""
         code = TypeCode.of(type_code)
-        types = self.model.type_codes
-        return isinstance(code, TypeCode) and code in types and self.runs(types[code])
+        return isinstance(code, TypeCode) and _supports(code, self.model, self.firmware)
 
     @property
     def individually_configurable(self) -> bool:
@@ -121,7 +137,7 @@ class Profile:
 
     def supported_types(self) -> str:
         """The types that the module can be set to, as the manual writes them: for messages."""
-        return " ".join(f"{code:02X}" for code in self.model.type_codes if self.supports(code))
+        return _supported_types(self.model, self.firmware)
 
     def _check_kinds(self) -> None:
         for name, value, kind in (
@@ -134,32 +150,173 @@ class Profile:
         ):
             if not isinstance(value, kind):
                 raise EncodeError(name, value, f"a {kind.__name__}", "1.11")
-        model = self.model.value
         if self.firmware is not None and not isinstance(self.firmware, Firmware):
             raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
         if self.single_ended and self.model not in AVAILABILITY["2.43"].gates:
-            raise EncodeError("single_ended", True, f"7017Z only, {model} has no such mode", "2.43")
+            allowed = f"7017Z only, {self.model.value} has no such mode"
+            raise EncodeError("single_ended", True, allowed, "2.43")
         if self.modbus_data_format and Protocol.MODBUS_RTU not in self.model.protocols:
-            allowed = f"M-7000 series only, {model} has no Modbus"
+            allowed = f"M-7000 series only, {self.model.value} has no Modbus"
             raise EncodeError("modbus_data_format", self.modbus_data_format, allowed, "1.12")
 
-    def _check_types(self) -> None:
-        model = self.model.value
-        if len(self.type_codes) not in (0, self.channels):
-            raise EncodeError("type_codes", self.type_codes, f"{self.channels} of them, or none: {model}", "1.3")
-        for code in self.type_codes:
-            if not isinstance(code, TypeCode):
-                raise EncodeError("type_codes", code, "members of TypeCode", "1.11")
-        for code in set(self.type_codes):
-            if not self.supports(code):
-                raise EncodeError("type_codes", f"{code:02X}", f"{self.supported_types()}: {model}", "1.11")
-        if len(set(self.type_codes)) > 1 and not self.individually_configurable:
-            raise EncodeError("type_codes", self.type_codes, f"one type for all channels: {model}", "2.15")
+    def _unknown_type(self) -> EncodeError:
+        unknown = next(code for code in self.type_codes if not isinstance(code, TypeCode))
+        return EncodeError("type_codes", unknown, "members of TypeCode", "1.11")
+
+    # --- what the module can be set to --------------------------------------------------------------------------------
+
+    @property
+    def has_filter(self) -> bool:
+        """Whether the mains filter can be chosen."""
+        return self.runs(self.model.filter_from)
+
+    @property
+    def has_character_formats(self) -> bool:
+        """Whether the line can have other characters than N81."""
+        return self.runs(self.model.character_formats_from)
+
+    def check_channel(self, channel: int, section: str) -> None:
+        """Refuse a channel that the module does not have in its connecting mode.
+
+        Errors: `EncodeError`, with the section of the manual that the caller names, as in all of these.
+        """
+        if channel.__class__ is not int:
+            check_int("channel", channel)
+        if not 0 <= channel < self.channels:
+            raise EncodeError("channel", channel, f"0..{self.channels - 1}: {self.model.value}", section)
+
+    def check_mask(self, mask: int, section: str) -> None:
+        """Refuse a mask with bits of channels that the module does not have.
+
+        Errors: `EncodeError`.
+        """
+        if mask.__class__ is not int:
+            check_int("mask", mask)
+        if mask >> self.channels:
+            raise EncodeError("mask", f"{mask:X}", f"bits 0..{self.channels - 1}: {self.model.value}", section)
+
+    def check_type_code(self, type_code: int, section: str, *, field: str = "type_code") -> None:
+        """Refuse a type code that the module cannot be set to.
+
+        Errors: `EncodeError` for `field`.
+        """
+        if not self.supports(type_code):
+            allowed = f"{self.supported_types()}: {self.model.value}"
+            raise EncodeError(field, f"{type_code:02X}", allowed, section)
+
+    def check_line(self, line: LineSettings, section: str) -> None:
+        """Refuse a line that the module cannot be set to.
+
+        Errors: `EncodeError`.
+        """
+        check_type("line", line, LineSettings)
+        if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
+            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
+        if line.character_format is not CharacterFormat.N81 and not self.has_character_formats:
+            allowed = f"N81 with firmware before {self.model.character_formats_from}: {self.model.value}"
+            raise EncodeError("character_format", line.character_format.name, allowed, section)
+
+    def check_report(self, report: ReportSettings, section: str) -> None:
+        """Refuse settings of reports that the module cannot be set to.
+
+        Errors: `EncodeError`.
+        """
+        check_type("report", report, ReportSettings)
+        if not isinstance(DataFormat.of(report.data_format), DataFormat):
+            raise EncodeError("data_format", report.data_format, "0..2", section)
+        if report.reserved:
+            raise EncodeError("reserved", report.reserved, "0", section)
+        if report.fast_mode and not self.model.fast_mode:
+            raise EncodeError("fast_mode", True, f"{self.model.value} has no fast mode", section)
+        if report.filter is not Filter.REJECT_60_HZ and not self.has_filter:
+            since = self.model.filter_from
+            allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {since}: {self.model.value}"
+            raise EncodeError("filter", report.filter.name, allowed, section)
+
+    @staticmethod
+    def check_cjc_offset(offset: int, section: str) -> None:
+        """Refuse a CJC offset, in counts of 0.01 degC, that no module can be set to.
+
+        Errors: `EncodeError`.
+        """
+        if offset.__class__ is not int:
+            check_int("offset", offset)
+        low, high = CJC_OFFSETS
+        if not low <= offset <= high:
+            raise EncodeError("offset", offset, f"{low}..+{high} counts of 0.01 degC", section)
+
+    @staticmethod
+    def check_name(name: str, section: str) -> None:
+        """Refuse a name that no module can have, or that is the text of another answer (E122).
+
+        Errors: `EncodeError`.
+        """
+        if not isinstance(name, str) or not is_name(name):
+            allowed = "not the text of another answer (2, 4 or 6 hex digits, a version, ...)"
+            raise EncodeError("name", name, f"1 to {LONGEST_NAME} characters, {allowed}", section)
 
 
-def _channels(profile: Profile) -> int:
-    single_ended = profile.model.single_ended_channels
-    return single_ended if profile.single_ended and single_ended else profile.model.channels
+# --- what follows from a few facts, and is asked again and again ------------------------------------------------------
+
+
+class _Places(NamedTuple):
+    """What follows from model and connecting mode."""
+
+    channels: int
+    channel_digits: int
+    mask_digits: int
+    types: tuple[TypeCode, ...]
+    """The factory's."""
+
+
+@lru_cache(maxsize=2 * len(Model))
+def _places(model: Model, *, single_ended: bool) -> _Places:
+    channels = (single_ended and model.single_ended_channels) or model.channels
+    default = model.default_type
+    types = () if default is None else (default,) * channels
+    return _Places(channels, 2 if single_ended else 1, (channels + 7) // 8 * 2, types)
+
+
+@lru_cache(maxsize=256)
+def _gated(model: Model, firmware: Firmware | None) -> tuple[bool, frozenset[str]]:
+    """Whether readings out of range are those of old firmware; the sections that the module does not have."""
+    legacy = firmware is not None and firmware <= LAST_LEGACY and model.value.startswith("I-7018")
+    closed = (
+        section for section, it in AVAILABILITY.items() if model not in it.gates or not _runs(firmware, it.gates[model])
+    )
+    return legacy, frozenset(closed)
+
+
+@lru_cache(maxsize=256)
+def _types(
+    codes: tuple[TypeCode, ...], channels: int, model: Model, firmware: Firmware | None
+) -> tuple[tuple[Unit, ...], Numbers | None]:
+    """The units of types, and how numbers are written if they are all of one type.
+
+    Errors: `EncodeError` for types that the module cannot have.
+    """
+    if len(codes) not in (0, channels):
+        raise EncodeError("type_codes", codes, f"{channels} of them, or none: {model.value}", "1.3")
+    kinds = set(codes)
+    for code in kinds:
+        if not _supports(code, model, firmware):
+            allowed = f"{_supported_types(model, firmware)}: {model.value}"
+            raise EncodeError("type_codes", f"{code:02X}", allowed, "1.11")
+    if len(kinds) > 1 and not (model in CONFIGURABLE and _runs(firmware, CONFIGURABLE[model])):
+        raise EncodeError("type_codes", codes, f"one type for all channels: {model.value}", "2.15")
+    return tuple(code.unit for code in codes), _numbers(codes[0], channels) if len(kinds) == 1 else None
+
+
+def _runs(firmware: Firmware | None, since: Firmware | None) -> bool:
+    return since is None or firmware is None or firmware >= since
+
+
+def _supports(code: TypeCode, model: Model, firmware: Firmware | None) -> bool:
+    return code in model.type_codes and _runs(firmware, model.type_codes[code])
+
+
+def _supported_types(model: Model, firmware: Firmware | None) -> str:
+    return " ".join(f"{code:02X}" for code in model.type_codes if _supports(code, model, firmware))
 
 
 def _numbers(code: TypeCode, channels: int) -> Numbers:

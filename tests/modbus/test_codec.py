@@ -74,7 +74,7 @@ def frame(body: str) -> bytes:
         ),
         (modbus.ReadCjcOffset(0x01, 0x01), M_7018, r"channel cannot be '01': 00, 80\.\.87: M-7018, manual 3\.3\.12"),
         (modbus.SetCjcOffset(0x01, 0x88, 0), M_7018, r"channel cannot be '88': 00, 80\.\.87: M-7018, manual 3\.3\.13"),
-        (modbus.SetCjcOffset(0x01, 0x00, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.4096"),
+        (modbus.SetCjcOffset(0x01, 0x00, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.\+4096"),
         (modbus.SetCjcOffset(0x01, 0x80, -1), M_7018, r"offset cannot be -1: 0\.\.255"),
         (modbus.SetChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9: M-7019Z"),
         (modbus.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9: M-7019Z"),

@@ -10,7 +10,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from i7000 import DataFormat, DecodeError, EncodeError, Fault, Model, Noise, Profile, dcon
-from i7000.dcon.names import is_name
+from i7000.names import is_name
 from i7000.readings import decode_field
 from i7000.strategies import addresses, profiles, readings
 from i7000.strategies.dcon import (

@@ -8,7 +8,7 @@ opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and 
 from attrs import field
 
 from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, check_channel
+from i7000.dcon.command import Acknowledged, Command
 from i7000.message import frozen
 from i7000.profile import Profile
 
@@ -85,7 +85,7 @@ class CalibrateChannelZero(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 @frozen
@@ -107,7 +107,7 @@ class CalibrateChannelSpan(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 class CalibrateInternally(Command[Acknowledged]):

@@ -3,8 +3,7 @@
 from attrs import field
 
 from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Message, Response
-from i7000.errors import EncodeError
+from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
 
@@ -21,14 +20,6 @@ __all__ = [
     "SetCjcOffset",
     "SetCjcUpdate",
 ]
-
-OFFSET_LIMIT = 0x1000
-"""The largest magnitude of an offset that a module takes (2.18)."""
-
-
-def _check_offset(message: Message, offset: int) -> None:
-    if abs(offset) > OFFSET_LIMIT:
-        raise EncodeError("offset", offset, f"-{OFFSET_LIMIT}..+{OFFSET_LIMIT} counts of 0.01 degC", message.section)
 
 
 @frozen
@@ -84,9 +75,9 @@ class CjcOffset(Response):
         """The offset in degrees Celsius."""
         return self.offset / 100
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse an offset beyond the limit."""
-        _check_offset(self, self.offset)
+        profile.check_cjc_offset(self.offset, self.section)
 
 
 class ReadCjcOffset(Command[CjcOffset]):
@@ -121,9 +112,9 @@ class SetCjcOffset(Command[Acknowledged]):
 
     offset: layout.Offset
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse an offset beyond the limit."""
-        _check_offset(self, self.offset)
+        profile.check_cjc_offset(self.offset, self.section)
 
 
 @frozen

@@ -4,12 +4,10 @@ Laws: a message that can be constructed has a wire form; whether a certain model
 command names its response by type: ``class ReadConfiguration(Command[Configuration])``.
 """
 
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 from i7000 import message
 from i7000.dcon.layout import Address, Layout
-from i7000.errors import EncodeError
-from i7000.profile import Profile
 
 __all__ = ["Acknowledged", "Broadcast", "Command", "Message", "Refused", "Response"]
 
@@ -93,24 +91,3 @@ class Refused(Response):
     title = "command refused"
 
     address: Address
-
-
-def check_channel(command: Command[Any], channel: int, profile: Profile) -> None:
-    """Refuse a channel that the module does not have."""
-    if channel >= profile.channels:
-        allowed = f"0..{profile.channels - 1}: {profile.model.value}"
-        raise EncodeError("channel", channel, allowed, command.section)
-
-
-def check_mask(sent: Message, mask: int, profile: Profile) -> None:
-    """Refuse a mask with bits of channels that the module does not have."""
-    if mask >> profile.channels:
-        allowed = f"bits 0..{profile.channels - 1}: {profile.model.value}"
-        raise EncodeError("mask", f"{mask:X}", allowed, sent.section)
-
-
-def check_type_code(command: Command[Any], type_code: int, profile: Profile) -> None:
-    """Refuse a type code that the module cannot be set to."""
-    if not profile.supports(type_code):
-        allowed = f"{profile.supported_types()}: {profile.model.value}"
-        raise EncodeError("type_code", f"{type_code:02X}", allowed, command.section)

@@ -9,11 +9,9 @@ from typing import Any
 from attrs import evolve
 
 from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Response, check_channel, check_type_code
-from i7000.errors import EncodeError
+from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat, DataFormat, Filter
 from i7000.type_codes import MIXED
 
 __all__ = [
@@ -56,24 +54,11 @@ class SetConfiguration(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse what the model or its firmware does not have."""
-        model, line, report = profile.model, self.line_settings, self.report_settings
         mixed = self.type_code == MIXED and profile.individually_configurable
-        if model.type_by_configuration and not mixed:
-            check_type_code(self, self.type_code, profile)
-        if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
-            raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
-        if line.character_format is not CharacterFormat.N81 and not profile.runs(model.character_formats_from):
-            allowed = f"N81 with firmware before {model.character_formats_from}: {model.value}"
-            raise EncodeError("character_format", line.character_format.name, allowed, "1.11")
-        if not isinstance(DataFormat.of(report.data_format), DataFormat):
-            raise EncodeError("data_format", report.data_format, "0..2", "1.11")
-        if report.reserved:
-            raise EncodeError("reserved", report.reserved, "0", "1.11")
-        if report.fast_mode and not model.fast_mode:
-            raise EncodeError("fast_mode", True, f"{model.value} has no fast mode", "1.11")
-        if report.filter is not Filter.REJECT_60_HZ and not profile.runs(model.filter_from):
-            allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {model.filter_from}: {model.value}"
-            raise EncodeError("filter", report.filter.name, allowed, "1.11")
+        if profile.model.type_by_configuration and not mixed:
+            profile.check_type_code(self.type_code, self.section)
+        profile.check_line(self.line_settings, "1.11")
+        profile.check_report(self.report_settings, "1.11")
 
 
 @frozen
@@ -140,8 +125,8 @@ class SetChannelTypeCode(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or a type that the module does not have."""
-        check_channel(self, self.channel, profile)
-        check_type_code(self, self.type_code, profile)
+        profile.check_channel(self.channel, self.section)
+        profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
@@ -180,4 +165,4 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)

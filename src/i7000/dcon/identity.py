@@ -7,7 +7,6 @@ from attrs import field
 
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
-from i7000.dcon.names import is_name
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -104,12 +103,9 @@ class SetModuleName(Command[Acknowledged]):
 
     name: layout.NewName
 
-    def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
+    def check(self, profile: Profile) -> None:
         """Refuse a name that is the text of another answer."""
-        if not is_name(self.name):
-            raise EncodeError(
-                "name", self.name, "not the text of another answer (2, 4 or 6 hex digits, a version, ...)", self.section
-            )
+        profile.check_name(self.name, self.section)
 
 
 @frozen

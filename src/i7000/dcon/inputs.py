@@ -9,7 +9,7 @@ mean is told by `i7000.dcon.readings`.
 from attrs import field
 
 from i7000.dcon import layout
-from i7000.dcon.command import Acknowledged, Command, Message, Response, check_channel, check_mask
+from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
 from i7000.fields import is_field
 from i7000.message import frozen
@@ -115,7 +115,7 @@ class ReadAnalogInput(Command[AnalogInput]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        profile.check_channel(self.channel, self.section)
 
 
 @frozen
@@ -169,7 +169,7 @@ class SetChannelMask(Command[Acknowledged]):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 @frozen
@@ -190,7 +190,7 @@ class ChannelMask(Response):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Command[ChannelMask]):
@@ -223,7 +223,7 @@ class Diagnostics(Response):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadDiagnostics(Command[Diagnostics]):

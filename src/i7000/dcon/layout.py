@@ -14,10 +14,10 @@ from typing import Annotated, Any, NamedTuple
 from attrs import fields
 
 from i7000 import describe
-from i7000.dcon.names import CHARACTERS, is_name, is_version
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.fields import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.frozen import frozen
+from i7000.names import CHARACTERS, LONGEST_NAME, is_name, is_version
 from i7000.profile import Profile
 from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
 from i7000.type_codes import TypeCode
@@ -193,8 +193,8 @@ def _text(
     )  # fmt: skip
 
 
-_NAME_LENGTHS = (1, 6)
-_NAME = "1 to 6 characters, printable ASCII without % # $ ~ @ ! > ?"
+_NAME_LENGTHS = (1, LONGEST_NAME)
+_NAME = f"1 to {LONGEST_NAME} characters, printable ASCII without % # $ ~ @ ! > ?"
 
 
 def _longest_field(data_format: DataFormat, profile: Profile) -> int:

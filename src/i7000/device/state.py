@@ -12,11 +12,10 @@ from typing import Any, TypeVar
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
 from i7000.arguments import LARGEST_FLOAT, check_clock, check_type
-from i7000.dcon import ModuleName
 from i7000.device.logger import Log
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
-from i7000.profile import Profile
+from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
 from i7000.readings import Reading
 from i7000.settings import (
     BaudRate,
@@ -81,7 +80,7 @@ def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: object) -> 
 
 
 def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
-    ModuleName(0, name)  # which refuses what no module can be named
+    Profile.check_name(name, "2.24")
 
 
 def _check_protocol(eeprom: "Eeprom", attribute: "Attribute[Any]", protocol: Protocol) -> None:
@@ -117,16 +116,16 @@ class Eeprom:
     """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
     protocol: Protocol = field(validator=_check_protocol)
     channel_mask: int = field(validator=_check_mask)
-    channel_offsets: tuple[int, ...] = field(validator=_one_each(_within(-0x80, 0x7F)))
+    channel_offsets: tuple[int, ...] = field(validator=_one_each(_within(*CHANNEL_OFFSETS)))
     """Tenths of a degree: CJC offsets of the 7018 series, temperature offsets of the 7019 series (E62)."""
-    channel_cjc_offsets: tuple[int, ...] = field(validator=_one_each(_within(-0x1000, 0x1000)))
+    channel_cjc_offsets: tuple[int, ...] = field(validator=_one_each(_within(*CJC_OFFSETS)))
     """Hundredths of a degree, 7019 series only (40353..)."""
     open_wire_detection: bool = field(validator=_a(bool))
     address: int = field(default=1, validator=_within(0, 0xFF))
     line_settings: LineSettings = field(default=LineSettings(), validator=_check_line)
     single_ended: bool = field(default=False, validator=_a(bool))
     modbus_data_format: ModbusDataFormat = field(default=ModbusDataFormat.HEX, validator=_a(ModbusDataFormat))
-    cjc_offset: int = field(default=0, validator=_within(-0x1000, 0x1000))
+    cjc_offset: int = field(default=0, validator=_within(*CJC_OFFSETS))
     """Hundredths of a degree."""
     cjc_enabled: bool = field(default=True, validator=_a(bool))
     host_watchdog_enabled: bool = field(default=False, validator=_a(bool))
@@ -137,7 +136,7 @@ class Eeprom:
     """How often it has timed out (40492); kept without power, as the status is (E114)."""
     host_watchdog_mode: bool = field(default=False, validator=_a(bool))
     """Coil 00260, which means nothing to modules without outputs (E30)."""
-    response_delay: int = field(default=0, validator=_within(0, 30))
+    response_delay: int = field(default=0, validator=_within(*RESPONSE_DELAYS))
     """Milliseconds, by Modbus."""
     sampling_rate_8_hz: bool = field(default=True, validator=_a(bool))
     """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""

@@ -8,7 +8,7 @@ from typing import Annotated
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
-from i7000.modbus.request import Message, Request, Response, SettingResult
+from i7000.modbus.request import Request, Response, SettingResult
 from i7000.profile import Profile
 from i7000.settings import Filter, channels_of, mask_of
 
@@ -32,17 +32,11 @@ __all__ = [
 FILTER_BIT, FAST_MODE_BIT = 0x80, 0x20
 
 
-def check_channel(sent: Message, channel: int, profile: Profile) -> None:
+def _check_channel(channel: int, profile: Profile, section: str) -> None:
     """Refuse a channel that the module does not have, or cannot set by itself."""
-    last = profile.channels - 1 if profile.individually_configurable else 0
-    if channel > last:
-        raise EncodeError("channel", channel, f"0..{last}: {profile.model.value}", sent.section)
-
-
-def check_mask(sent: Message, mask: int, profile: Profile) -> None:
-    """Refuse a mask with bits of channels that the module does not have."""
-    if mask >> profile.channels:
-        raise EncodeError("mask", f"{mask:X}", f"bits 0..{profile.channels - 1}: {profile.model.value}", sent.section)
+    if channel and not profile.individually_configurable:
+        raise EncodeError("channel", channel, f"0..0: {profile.model.value}", section)
+    profile.check_channel(channel, section)
 
 
 @frozen
@@ -77,7 +71,7 @@ class ReadTypeCode(Request[TypeCodeSetting]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
-        check_channel(self, self.channel, profile)
+        _check_channel(self.channel, profile, self.section)
 
 
 class TypeCodeResult(SettingResult):
@@ -110,10 +104,8 @@ class SetTypeCode(Request[TypeCodeResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or type that the module does not have."""
-        check_channel(self, self.channel, profile)
-        if not profile.supports(self.type_code):
-            allowed = f"{profile.supported_types()}: {profile.model.value}"
-            raise EncodeError("type_code", f"{self.type_code:02X}", allowed, self.section)
+        _check_channel(self.channel, profile, self.section)
+        profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
@@ -137,7 +129,7 @@ class ChannelMask(Response):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Request[ChannelMask]):
@@ -182,7 +174,7 @@ class SetChannelMask(Request[ChannelMaskResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
-        check_mask(self, self.mask, profile)
+        profile.check_mask(self.mask, self.section)
 
 
 def _settings(settings: int) -> str:
@@ -269,7 +261,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse bits that the module does not have."""
-        bits = FILTER_BIT * profile.runs(profile.model.filter_from) | FAST_MODE_BIT * profile.model.fast_mode
+        bits = FILTER_BIT * profile.has_filter | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(
                 "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section

@@ -30,10 +30,11 @@ __all__ = [
     "SetCjcUpdate",
 ]
 
-OFFSET_LIMIT = 0x1000
-"""The largest magnitude of a module's CJC offset."""
 FIRST_CHANNEL = 0x80
 """What channel 0 is where 0 is the module."""
+
+
+_LOW_BYTE = 0xFF
 
 
 def offset_in_celsius(channel: int, offset: int) -> float:
@@ -158,9 +159,10 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have, or an offset beyond its range."""
         check_offset_channel(self, self.channel, profile)
-        low, high = (0, 0xFF) if self.channel else (-OFFSET_LIMIT, OFFSET_LIMIT)
-        if not low <= self.offset <= high:
-            raise EncodeError("offset", self.offset, f"{low}..{high}", self.section)
+        if not self.channel:
+            profile.check_cjc_offset(self.offset, self.section)
+        elif not 0 <= self.offset <= _LOW_BYTE:
+            raise EncodeError("offset", self.offset, f"0..{_LOW_BYTE}", self.section)
 
 
 @frozen

@@ -9,7 +9,6 @@ from i7000.modbus import layout
 from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat, LineSettings
 
 __all__ = [
     "CommunicationSettings",
@@ -23,16 +22,6 @@ __all__ = [
     "SetCommunicationSettings",
     "SetModuleAddress",
 ]
-
-
-def check_line(line: LineSettings, profile: Profile, section: str) -> None:
-    """Refuse a line that the module cannot have."""
-    formats_from = profile.model.character_formats_from
-    if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
-        raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
-    if line.character_format is not CharacterFormat.N81 and not profile.runs(formats_from):
-        allowed = f"N81 with firmware before {formats_from}: {profile.model.value}"
-        raise EncodeError("character_format", line.character_format.name, allowed, section)
 
 
 @frozen
@@ -164,7 +153,7 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
 
     def check(self, profile: Profile) -> None:
         """Refuse a line that the module cannot have."""
-        check_line(self.line_settings, profile, self.section)
+        profile.check_line(self.line_settings, self.section)
 
 
 @frozen

@@ -11,7 +11,6 @@ from typing import Any
 from i7000.arguments import as_tuple, check_int, check_type
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
-from i7000.modbus.module_settings import check_line
 from i7000.modbus.registers import Kind, Register, WordOrder
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
@@ -192,11 +191,10 @@ def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) 
         unit = f" {row.unit}" if row.unit else ""
         allowed = f"{low / scale:g}..{high / scale:g}{unit} in steps of {1 / scale:g}" if low < high else f"{low}"
         raise EncodeError(row.name, value, allowed, "3.4")
-    if row.values is TypeCode and not profile.supports(counts):
-        allowed = f"{profile.supported_types()}: {profile.model.value}"
-        raise EncodeError(row.name, f"{counts:02X}", allowed, "1.11")
+    if row.values is TypeCode:
+        profile.check_type_code(counts, "1.11", field=row.name)
     if row.values is LineSettings:
-        check_line(LineSettings.from_byte(counts), profile, "3.4")
+        profile.check_line(LineSettings.from_byte(counts), "3.4")
     if row.kind is Kind.UINT32:
         words = (counts & 0xFFFF, counts >> 16)
         return words[::-1] if _is_big_endian(row, big_endian=big_endian) else words

@@ -13,9 +13,8 @@ from attrs import evolve, field
 
 from i7000 import describe
 from i7000.frozen import frozen
-from i7000.modbus.cold_junction import OFFSET_LIMIT
 from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates, series
-from i7000.profile import Profile
+from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
 from i7000.settings import CjcUpdate, Filter, LineSettings, LogCommand, ModbusDataFormat, Protocol, is_int
 from i7000.type_codes import TypeCode
 
@@ -185,8 +184,8 @@ def _holding(name: str, address: int, count: int = 1, **facts: Any) -> Register:
 _TYPE_CODE = partial(
     _holding, kind=Kind.CODE, minimum=0, maximum=_LAST_TYPE_CODE, values=TypeCode, words=describe.type_code
 )
-_OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=-OFFSET_LIMIT, maximum=OFFSET_LIMIT)
-_TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=-128, maximum=127)
+_OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=CJC_OFFSETS[0], maximum=CJC_OFFSETS[1])
+_TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=CHANNEL_OFFSETS[0], maximum=CHANNEL_OFFSETS[1])
 _MASK = partial(_holding, kind=Kind.BITS, minimum=0, words=describe.mask)
 
 
@@ -215,7 +214,7 @@ def _module(profile: Profile) -> Iterator[Register]:
     )  # fmt: skip
     if model.type_by_configuration:
         yield _TYPE_CODE("module_type_code", 486)
-    yield _holding("response_delay", 487, unit="ms", scale=1, minimum=0, maximum=30)
+    yield _holding("response_delay", 487, unit="ms", scale=1, minimum=RESPONSE_DELAYS[0], maximum=RESPONSE_DELAYS[1])
     yield _holding("host_watchdog_timeout", 488, unit="s", scale=0.1, minimum=0, maximum=255)
     yield _MASK("channel_mask", 489, maximum=(1 << min(_printed_channels(profile), 16)) - 1)
     if model.cjc:

@@ -29,6 +29,7 @@ from i7000.device import (
     power_on,
     step,
 )
+from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS
 from i7000.strategies.dcon import any_commands, names
 from i7000.strategies.modbus import any_requests
 from i7000.strategies.vocabulary import addresses, firmwares, line_settings, report_settings, supported_types
@@ -106,20 +107,20 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
         name=draw(st.just(made.name) | names()),
         protocol=draw(st.sampled_from(sorted(made.model.protocols))) if protocol is None else protocol,
         channel_mask=draw(st.integers(0, (1 << inputs) - 1)),
-        channel_offsets=draw(st.tuples(*[st.integers(-0x80, 0x7F)] * inputs)),
-        channel_cjc_offsets=draw(st.tuples(*[st.integers(-0x1000, 0x1000)] * inputs)),
+        channel_offsets=draw(st.tuples(*[st.integers(*CHANNEL_OFFSETS)] * inputs)),
+        channel_cjc_offsets=draw(st.tuples(*[st.integers(*CJC_OFFSETS)] * inputs)),
         open_wire_detection=draw(st.booleans()),
         address=draw(addresses() if made.model.value[0] == "I" else st.integers(1, 247)),
         single_ended=draw(st.booleans()) and "2.43" not in profile.refused,
         modbus_data_format=draw(modbus_format) if made.model.value[0] == "M" else made.modbus_data_format,
-        cjc_offset=draw(st.integers(-0x1000, 0x1000)),
+        cjc_offset=draw(st.integers(*CJC_OFFSETS)),
         cjc_enabled=draw(st.booleans()),
         host_watchdog_enabled=draw(st.booleans()),
         host_watchdog_timeout=draw(st.integers(0, 0xFF)),
         host_watchdog_timed_out=draw(st.booleans()),
         host_watchdog_timeouts=draw(_WORD),
         host_watchdog_mode=draw(st.booleans()),
-        response_delay=draw(st.integers(0, 30)),
+        response_delay=draw(st.integers(*RESPONSE_DELAYS)),
         sampling_rate_8_hz=draw(st.booleans()),
         big_endian=draw(st.booleans()),
         log=draw(logs(now)) if made.model is Model.M_7017mC_16 else made.log,

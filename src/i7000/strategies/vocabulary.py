@@ -98,7 +98,7 @@ def line_settings(profile: Profile | None = None) -> SearchStrategy[LineSettings
     def settable(line: LineSettings) -> bool:
         if profile is None:
             return True
-        plain = line.character_format is CharacterFormat.N81 or profile.runs(profile.model.character_formats_from)
+        plain = line.character_format is CharacterFormat.N81 or profile.has_character_formats
         return plain and isinstance(line.baud_rate, BaudRate)
 
     every = sorted(map(LineSettings.from_byte, range(0x100)), key=lambda line: line != LineSettings())
@@ -112,7 +112,7 @@ def report_settings(profile: Profile | None = None) -> SearchStrategy[ReportSett
         if profile is None:
             return True
         slow = not report.fast_mode or profile.model.fast_mode
-        filtered = report.filter is Filter.REJECT_60_HZ or profile.runs(profile.model.filter_from)
+        filtered = report.filter is Filter.REJECT_60_HZ or profile.has_filter
         return slow and filtered and isinstance(report.data_format, DataFormat) and not report.reserved
 
     return st.sampled_from([report for report in map(ReportSettings.from_byte, range(0x100)) if settable(report)])

@@ -30,12 +30,12 @@ from i7000.dcon import (
     encode,
     layout,
 )
-from i7000.dcon.cold_junction import OFFSET_LIMIT
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
-from i7000.dcon.names import CHARACTERS, is_name
 from i7000.fields import FIELD_WIDTHS
 from i7000.models import AVAILABILITY
+from i7000.names import CHARACTERS, is_name
+from i7000.profile import CJC_OFFSETS
 from i7000.readings import encode_field
 from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
 
@@ -181,8 +181,7 @@ def names() -> SearchStrategy[str]:
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
     if part.width == len("SNNNN"):
-        limit = OFFSET_LIMIT if accepted else 0xFFFF
-        return st.integers(-limit, limit)
+        return st.integers(*(CJC_OFFSETS if accepted else (-0xFFFF, 0xFFFF)))
     if accepted and part in _LIMITS:
         return st.integers(0, _LIMITS[part](profile))
     digits = len(part.notation) if part.width is None else int(getattr(profile, str(part.width)))

@@ -33,8 +33,9 @@ from i7000.modbus import (
     is_answered,
     layout,
 )
-from i7000.modbus.cold_junction import FIRST_CHANNEL, OFFSET_LIMIT
+from i7000.modbus.cold_junction import FIRST_CHANNEL
 from i7000.models import AVAILABILITY
+from i7000.profile import CJC_OFFSETS
 from i7000.strategies import vocabulary
 from i7000.strategies.vocabulary import line_settings, supported_types
 
@@ -174,7 +175,7 @@ def _settable(  # noqa: PLR0911 - a table
         case "channel":
             return st.integers(0, profile.channels - 1 if profile.individually_configurable else 0)
         case "offset" if "channel" in values:
-            return st.integers(0, 0xFF) if values["channel"] else st.integers(-OFFSET_LIMIT, OFFSET_LIMIT)
+            return st.integers(0, 0xFF) if values["channel"] else st.integers(*CJC_OFFSETS)
         case "mask":
             return st.integers(0, (1 << profile.channels) - 1)
         case "settings":

@@ -6,7 +6,9 @@ has it, but that the number of a series may be a mask of four digits (E122, an a
 
 import re
 
-__all__ = ["CHARACTERS", "is_name", "is_version"]
+__all__ = ["CHARACTERS", "LONGEST_NAME", "is_name", "is_version"]
+
+LONGEST_NAME = 6
 
 CHARACTERS = frozenset(map(chr, range(0x20, 0x7F))) - frozenset("%#$~@!>?")
 """Printable ASCII without the leading characters of messages (E102)."""
@@ -33,9 +35,10 @@ def is_version(text: str) -> bool:
 
 
 def is_name(text: str) -> bool:
-    """Whether this text is the name of a module and nothing else that a module answers.
+    """Whether this text can be the name of a module: 1 to 6 characters that are no other answer.
 
-    >>> is_name("7018"), is_name("OVEN 2"), is_name("0506"), is_name("A2.0")
-    (True, True, False, False)
+    >>> is_name("7018"), is_name("OVEN 2"), is_name("0506"), is_name("A2.0"), is_name("OVEN 21")
+    (True, True, False, False, False)
     """
-    return re.fullmatch(_OTHER_ANSWER, text) is None
+    short = 1 <= len(text) <= LONGEST_NAME and CHARACTERS.issuperset(text)
+    return short and re.fullmatch(_OTHER_ANSWER, text) is None
