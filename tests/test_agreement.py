@@ -25,9 +25,10 @@ from i7000 import (
     TypeCode,
     dcon,
 )
+from i7000.availability import Availability
 from i7000.dcon.codec import COMMANDS
 from i7000.dcon.layout import Part
-from i7000.models import AVAILABILITY, CONFIGURABLE
+from i7000.models import CONFIGURABLE
 from i7000.readings import decode_engineering_word, decode_field, encode_engineering_word, encode_field
 from tests.spec.lint import Record, rows
 from tests.vectors import parameters, profile_of
@@ -71,7 +72,7 @@ def test_the_models_are_those_of_the_table() -> None:
 @pytest.mark.parametrize("model", Model, ids=lambda model: model.value)
 def test_a_model_is_what_its_row_says(model: Model) -> None:
     row = MODEL_ROWS[model.value]
-    by_command = "2.43" not in Profile(model).refused
+    by_command = Availability.SERIES_7017Z not in Profile(model).refused
     individually: str | None = None
     if model in CONFIGURABLE:
         individually = as_text(CONFIGURABLE[model]) or "always"
@@ -133,7 +134,7 @@ def test_a_field_has_the_digits_of_its_row(command: Any, side: str) -> None:
         assert COMMAND_ROWS[command.__name__][side] == []
         return
     profiles = [Profile(model) for model in Model] + [Profile(Model.M_7017Z, single_ended=True)]
-    profiles = [profile for profile in profiles if command.section not in profile.refused]
+    profiles = [profile for profile in profiles if command.availability not in profile.refused]
     parts: dict[str, Part] = {field.name: field.type.__metadata__[0] for field in fields(message)}
 
     for it in COMMAND_ROWS[command.__name__][side]:
@@ -149,8 +150,7 @@ def test_a_field_has_the_digits_of_its_row(command: Any, side: str) -> None:
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
 def test_the_models_that_have_a_command_are_those_of_its_row(command: Any) -> None:
-    availability = AVAILABILITY.get(command.section)
-    gates = dict.fromkeys(Model) if availability is None else availability.gates
+    gates = command.availability.gates
 
     assert COMMAND_ROWS[command.__name__]["models"] == {
         model.value: as_text(gates[model]) for model in Model if model in gates
@@ -172,7 +172,7 @@ def test_a_profile_allows_what_the_rows_say_for_every_firmware_that_matters(mode
             if model.value in row["models"]
             and (row["models"][model.value] is None or firmware >= Firmware(row["models"][model.value]))
         }
-        assert told == {command.section for command in COMMANDS} - set(profile.refused)
+        assert told == {command.section for command in COMMANDS if command.availability not in profile.refused}
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)

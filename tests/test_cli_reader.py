@@ -47,7 +47,7 @@ def read_by_itself(frame: bytes, asked: bytes | None, profile: Profile) -> Itera
         return
     body = dcon.unseal(frame, checksum=profile.checksum, leads=b"!>?").decode("ascii")
     kinds = {dcon.Refused} | {
-        it.response for it in dcon.COMMANDS if issubclass(it, dcon.Command) and it.section not in profile.refused
+        it.response for it in dcon.COMMANDS if issubclass(it, dcon.Command) and it.availability not in profile.refused
     }
     for kind in kinds:
         try:

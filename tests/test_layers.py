@@ -12,6 +12,7 @@ RINGS = {
     "errors": 1,
     "frozen": 1,
     "arguments": 1,
+    "availability": 1,
     "type_codes": 1,
     "settings": 1,
     "describe": 1,

@@ -42,6 +42,19 @@ def test_every_public_class_and_function_is_documented(module: ModuleType, name:
         assert not value.__doc__.startswith(f"{name}(")
 
 
+@pytest.mark.parametrize(
+    ("module", "bases", "listed"),
+    [(dcon, (dcon.Command, dcon.Broadcast), COMMANDS), (modbus, (modbus.Request,), modbus.REQUESTS)],
+    ids=["dcon", "modbus"],
+)
+def test_every_public_command_is_listed_once(module: ModuleType, bases: Any, listed: Any) -> None:
+    public = [getattr(module, name) for name in module.__all__]
+    commands = {it for it in public if isinstance(it, type) and issubclass(it, bases) and hasattr(it, "section")}
+
+    assert set(listed) == commands
+    assert len(listed) == len(commands)
+
+
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
 def test_a_command_states_its_wire_form_and_its_source(command: Any) -> None:
     document = command.__doc__

@@ -90,3 +90,7 @@ def message_of(record: Record, messages: dict[str, Any] = MESSAGES) -> Any:
 def modbus_message_of(record: Record) -> Any:
     """The Modbus message that a vector names."""
     return message_of(record, MODBUS_MESSAGES)
+
+
+AVAILABILITY = {kind.section: kind.availability for kinds in (dcon.COMMANDS, modbus.REQUESTS) for kind in kinds}
+"""Who has the commands and requests of a section."""

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args
 from attrs import fields
 
 import i7000.frozen
+from i7000.availability import Availability
 from i7000.errors import ArgumentError
 from i7000.profile import Profile
 
-__all__ = ["CompiledOnce", "Message", "frozen", "type_of_answer"]
+__all__ = ["CompiledOnce", "Message", "answer_of", "frozen"]
 
 _IN_HEX = ("address", "new_address", "mask")
 
@@ -39,13 +40,15 @@ else:
 class Message:
     """A message of one of the protocols.
 
-    Shape: `section` of the manual; `title`, a few words for people; `layout`, the compiled statement of the wire form.
+    Shape: `section` of the manual; `title`, a few words for people; `availability`, who has it; `layout`, the compiled
+        statement of the wire form.
     """
 
     __slots__ = ()
 
     section: ClassVar[str]
     title: ClassVar[str]
+    availability: ClassVar[Availability] = Availability.ALL
     layout: ClassVar[Any]
     _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
     """What to construct where a class is only the base of others, which has no section."""
@@ -94,6 +97,12 @@ class Message:
         """
 
 
-def type_of_answer(kind: Any) -> Any:  # noqa: ANN401 - a class
-    """Tell the type in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``."""
-    return get_args(kind.__orig_bases__[0])[0]
+def answer_of(kind: Any) -> Any:  # noqa: ANN401 - classes
+    """Return the class in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``.
+
+    Special: a response of the same section as its command is for the same models.
+    """
+    response = get_args(kind.__orig_bases__[0])[0]
+    if getattr(response, "section", None) == getattr(kind, "section", ""):
+        response.availability = kind.availability
+    return response

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import cached_property, total_ordering
 from types import MappingProxyType
-from typing import NamedTuple
 
 from attrs import field
 
@@ -20,7 +19,7 @@ from i7000.frozen import frozen
 from i7000.settings import Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["AVAILABILITY", "CONFIGURABLE", "Availability", "Firmware", "Gates", "Model", "series"]
+__all__ = ["CONFIGURABLE", "Firmware", "Gates", "Model", "gates_of", "series"]
 
 _FIRMWARE = re.compile(r"([A-Z])([0-9])(?:\.([0-9]{1,2})|([0-9]{2}))")
 
@@ -328,13 +327,13 @@ def _unipolar(firmware: Firmware | None) -> dict[TypeCode, Firmware | None]:
     return {TypeCode.MA_4_20: firmware, TypeCode.MA_0_20: firmware}
 
 
-def gates(*models: Iterable[Model], **firmware: str) -> Gates:
+def gates_of(*models: Iterable[Model], **firmware: str) -> Gates:
     """Put together who has a thing: `models` always, those named in `firmware` from that one on."""
     gate: dict[Model, Firmware | None] = {model: None for group in models for model in group}
     return gate | {Model[name]: Firmware(version) for name, version in firmware.items()}
 
 
-CONFIGURABLE = gates(
+CONFIGURABLE = gates_of(
     series("7017Z", "M-7017RMS", "M-7017mC-16", "7018Z", "7019"),
     I_7017R="B3.9", M_7017R="B3.9", I_7018R="B4.2", M_7018R="B4.5",
 )  # fmt: skip
@@ -342,80 +341,3 @@ CONFIGURABLE = gates(
 
 TT_UNUSED = series("7017Z", "M-7017mC-16", "7018Z", "7019")
 """The models that ignore TT of ``%AANNTTCCFF``: their channels are set one by one (2.1)."""
-
-
-class Availability(NamedTuple):
-    """Who has a command, in a word for people and as gates."""
-
-    scope: str
-    gates: Gates
-
-
-_R_MODELS = "7017Z, 7018Z, 7019 series, M-7017RMS, M-7017mC-16; I-7017R, M-7017R from B3.9, I-7018R B4.2, M-7018R B4.5"
-_7019_SERIES = Availability("7019 series only", gates(series("7019")))
-_7018_7019 = Availability("7018 and 7019 series only", gates(series("7018", "7019")))
-_7017_7018 = Availability("7017 and 7018 series only", gates(series("7017", "7018")))
-_SOFT = Availability("M-7017mC-16 and 7019 series only", gates(series("M-7017mC-16", "7019")))
-_M_SERIES = Availability("M-7000 series only", gates(series("M-7017", "M-7018", "M-7019")))
-_CONFIGURABLE = Availability(_R_MODELS, CONFIGURABLE)
-_OPEN_WIRE = Availability(
-    "7018R from B4.2 and 7019 series from B3.7 only",
-    gates(I_7018R="B4.2", M_7018R="B4.2", I_7019R="B3.7", M_7019R="B3.7", M_7019Z="B3.7"),
-)
-_CONNECTING_MODE = Availability("7017Z only", gates(series("7017Z")))
-_M_CJC = Availability("M-7018 and M-7019 series only", gates(series("M-7018", "M-7019")))
-_M_7019 = Availability("M-7019 series only", gates(series("M-7019")))
-_M_7017_SERIES = dict.fromkeys(("M_7017", "M_7017C", "M_7017R", "M_7017RC", "M_7017R_A5"), "B3.0")
-
-AVAILABILITY: Mapping[str, Availability] = {
-    "2.2": _7019_SERIES,
-    "2.5": _7017_7018,
-    "2.6": _7017_7018,
-    "2.7": Availability("M-7017mC-16 only", gates(series("M-7017mC-16"))),
-    "2.8": _7019_SERIES,
-    "2.9": _7019_SERIES,
-    "2.11": _7018_7019,
-    "2.12": _7019_SERIES,
-    "2.15": _CONFIGURABLE,
-    "2.16": _CONFIGURABLE,
-    "2.17": _7018_7019,
-    "2.18": _7018_7019,
-    "2.19": Availability("7017 series only", gates(series("7017"))),
-    "2.20": _7019_SERIES,
-    "2.21": _7019_SERIES,
-    "2.22": _7019_SERIES,
-    "2.25": _M_SERIES,
-    "2.26": _M_SERIES,
-    "2.27": _7019_SERIES,
-    "2.28": _SOFT,
-    "2.29": _7018_7019,
-    "2.30": _7018_7019,
-    "2.32": _SOFT,
-    "2.34": _SOFT,
-    "2.40": _OPEN_WIRE,
-    "2.41": _OPEN_WIRE,
-    "2.42": _CONNECTING_MODE,
-    "2.43": _CONNECTING_MODE,
-    "3.1": Availability(
-        "M-7019 series, and M-7017 series from B3.0 but the M-7017RMS only",
-        gates(series("M-7017Z", "M-7017mC-16", "M-7019"), **_M_7017_SERIES),
-    ),
-    "3.2": _M_SERIES,
-    "3.3.12": _M_CJC,
-    "3.3.13": _M_CJC,
-    "3.3.14": _M_CJC,
-    "3.3.15": _M_CJC,
-    "3.3.16": _M_7019,
-    "3.3.17": _M_7019,
-    "3.4": Availability(
-        "M-7000 series only; M-7017 series and M-7019R from B3.0, M-7018 and M-7018R from B3.5",
-        gates(
-            series("M-7017Z", "M-7017mC-16", "M-7017RMS", "M-7018Z", "M-7018-16", "M-7019Z"),
-            M_7019R="B3.0",
-            M_7018="B3.5",
-            M_7018R="B3.5",
-            **_M_7017_SERIES,
-        ),
-    ),
-} | {f"3.3.{section}": _M_SERIES for section in range(1, 12)}
-"""The sections of chapters 2 and 3 that only some models have; every other one is for all (E55, E56)."""

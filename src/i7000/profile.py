@@ -7,10 +7,11 @@ from typing import NamedTuple
 from attrs import field
 
 from i7000.arguments import check_int, check_type
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.fields import TEXT_WIDTH
 from i7000.frozen import frozen
-from i7000.models import AVAILABILITY, CONFIGURABLE, Firmware, Gates, Model
+from i7000.models import CONFIGURABLE, Firmware, Gates, Model
 from i7000.names import LONGEST_NAME, is_name
 from i7000.settings import (
     BaudRate,
@@ -85,8 +86,8 @@ class Profile:
     """What is in a report in engineering units of channels of one type; None for any other report."""
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
     """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
-    refused: frozenset[str] = field(init=False, eq=False, repr=False)
-    """Sections of chapters 2 and 3 that the module does not have; `i7000.models.AVAILABILITY` tells who has them."""
+    refused: frozenset[Availability] = field(init=False, eq=False, repr=False)
+    """What the module does not have: a message class says in `availability` what it is part of."""
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
@@ -152,7 +153,7 @@ class Profile:
                 raise EncodeError(name, value, f"a {kind.__name__}", "1.11")
         if self.firmware is not None and not isinstance(self.firmware, Firmware):
             raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
-        if self.single_ended and self.model not in AVAILABILITY["2.43"].gates:
+        if self.single_ended and self.model not in Availability.SERIES_7017Z.gates:
             allowed = f"7017Z only, {self.model.value} has no such mode"
             raise EncodeError("single_ended", True, allowed, "2.43")
         if self.modbus_data_format and Protocol.MODBUS_RTU not in self.model.protocols:
@@ -278,12 +279,10 @@ def _places(model: Model, *, single_ended: bool) -> _Places:
 
 
 @lru_cache(maxsize=256)
-def _gated(model: Model, firmware: Firmware | None) -> tuple[bool, frozenset[str]]:
-    """Whether readings out of range are those of old firmware; the sections that the module does not have."""
+def _gated(model: Model, firmware: Firmware | None) -> tuple[bool, frozenset[Availability]]:
+    """Whether readings out of range are those of old firmware; what the module does not have."""
     legacy = firmware is not None and firmware <= LAST_LEGACY and model.value.startswith("I-7018")
-    closed = (
-        section for section, it in AVAILABILITY.items() if model not in it.gates or not _runs(firmware, it.gates[model])
-    )
+    closed = (it for it in Availability if model not in it.gates or not _runs(firmware, it.gates[model]))
     return legacy, frozenset(closed)
 
 

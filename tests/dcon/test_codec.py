@@ -268,6 +268,11 @@ def test_the_longest_response_is_counted_in_bytes(command: Any, profile: Profile
     assert length == dcon.longest_response(command, profile)
 
 
+@pytest.mark.parametrize(("command", "answered"), [(dcon.HostOk(), False), (dcon.ReadModuleName(0x01), True)], ids=repr)
+def test_nothing_answers_a_broadcast(command: Any, answered: bool) -> None:  # noqa: FBT001 - a case
+    assert answered == dcon.is_answered(command)
+
+
 def test_a_status_byte_is_kept_and_read() -> None:
     told = dcon.HostWatchdogStatus(0x01, 0x84)
 

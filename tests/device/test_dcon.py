@@ -16,6 +16,7 @@ from i7000 import (
 )
 from i7000.device import Signals
 from tests.device.driver import Bench, bench
+from tests.vectors import AVAILABILITY
 
 M_MODELS = sorted((model for model in Model if model.value.startswith("M")), key=lambda model: model.value)
 
@@ -157,7 +158,7 @@ def test_every_module_answers_every_command_that_it_has_and_no_other(model: Mode
 
     answer = module.say(text)
 
-    if section in profile.refused and twin in profile.refused:
+    if {AVAILABILITY[section], AVAILABILITY[twin]} <= profile.refused:
         assert answer is None
     else:
         assert answer is not None

@@ -306,7 +306,11 @@ def test_no_item_outside_the_map_is_read_or_written(model: Model) -> None:
         modbus.Area.HOLDING_REGISTER: modbus.ReadHoldingRegisters,
         modbus.Area.INPUT_REGISTER: modbus.ReadInputRegisters,
     }
-    functions = {modbus.Area.DISCRETE_INPUT} if "3.1" in module.state.profile.refused else set()
+    functions = (
+        {modbus.Area.DISCRETE_INPUT}
+        if modbus.ReadDiscreteInputs.availability in module.state.profile.refused
+        else set()
+    )
     before = module.state
     for area, reader in readers.items():
         for address in range(1200):

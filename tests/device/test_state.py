@@ -26,10 +26,11 @@ from i7000 import (
     Unit,
     device,
 )
+from i7000.availability import Availability
 from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, advance, factory, power_on, step
 from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
-from i7000.models import AVAILABILITY, CONFIGURABLE
+from i7000.models import CONFIGURABLE
 
 
 @pytest.mark.parametrize("name", device.__all__)
@@ -60,7 +61,7 @@ def test_a_module_from_the_factory_has_its_defaults(model: Model) -> None:
 
 
 def test_the_newest_firmware_has_everything() -> None:
-    gates = [*(it.gates for it in AVAILABILITY.values()), CONFIGURABLE, *(model.type_codes for model in Model)]
+    gates = [*(it.gates for it in Availability), CONFIGURABLE, *(model.type_codes for model in Model)]
     firmwares = [firmware for gate in gates for firmware in dict(gate).values() if firmware]  # type: ignore[call-overload]
 
     assert max(firmwares) <= NEWEST

@@ -18,7 +18,7 @@ PROFILE = Profile(Model.M_7019R, checksum=True)
 COMMANDS = [
     kind
     for kind in dcon.COMMANDS
-    if issubclass(kind, dcon.Command) and kind is not dcon.SetConfiguration and kind.section not in PROFILE.refused
+    if issubclass(kind, dcon.Command) and kind is not dcon.SetConfiguration and kind.availability not in PROFILE.refused
 ]
 """All that leave the module to be found where it is, and understood."""
 RTU = 0x03

@@ -9,7 +9,6 @@ from attrs import fields
 from i7000 import Firmware, Model, Profile, Protocol, modbus
 from i7000.modbus.layout import MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS
 from i7000.modbus.registers import rows as rows_of
-from i7000.models import AVAILABILITY
 from tests.spec.lint import Record, load, rows, table_files
 from tests.vectors import MODBUS_MESSAGES, modbus_message_of
 
@@ -52,7 +51,7 @@ def test_a_request_is_what_its_row_says(request_class: Any) -> None:
 
 @each_request
 def test_a_request_is_for_the_models_of_its_row(request_class: Any) -> None:
-    assert ROWS[request_class.__name__]["models"] == as_text(AVAILABILITY[request_class.section].gates)
+    assert ROWS[request_class.__name__]["models"] == as_text(request_class.availability.gates)
 
 
 def test_an_exception_is_what_its_row_says() -> None:

@@ -332,6 +332,44 @@ def test_nothing_answers_a_broadcast(address: int) -> None:
     assert Fault.ADDRESS is caught.value.fault
 
 
+@pytest.mark.parametrize(
+    ("request_", "profile", "length"),
+    [
+        (modbus.ReadInputRegisters(1, 0, 8), M_7017, 21),
+        (modbus.ReadCoils(1, 256, 9), M_7017, 7),
+        (modbus.WriteSingleRegister(1, 488, 100), M_7017, 8),
+        (modbus.ReadChannelMask(1), M_7017, 6),
+        (modbus.ReadChannelMask(1), Profile(Model.M_7017Z, single_ended=True), 8),
+        (modbus.ReadModuleName(1), M_7017, 9),
+        (modbus.ReadTypeCode(1, 0), M_7017, 6),
+        (modbus.WriteSingleRegister(0, 488, 100), M_7017, 0),
+    ],
+    ids=str,
+)
+def test_the_longest_response_is_counted_in_bytes(request_: Any, profile: Profile, length: int) -> None:
+    assert length == modbus.longest_response(request_, profile)
+
+
+@pytest.mark.parametrize(
+    ("request_", "seconds"),
+    [
+        (modbus.ReadInputRegisters(1, 0, 8), 0.0),
+        (modbus.WriteSingleRegister(0, 488, 100), 0.002),
+        (modbus.WriteSingleCoil(1, 271, value=True), 3.0),
+        (modbus.WriteSingleCoil(0, 271, value=True), 3.0),
+        (modbus.WriteSingleCoil(1, 271, value=False), 0.0),
+        (modbus.WriteSingleCoil(1, 270, value=True), 0.0),
+        (modbus.WriteMultipleCoils(1, 270, (False, True)), 3.0),
+        (modbus.WriteMultipleCoils(1, 270, (True, False)), 0.0),
+        (modbus.WriteMultipleCoils(1, 269, (True, True)), 0.0),
+        (modbus.WriteMultipleCoils(1, 272, (True,)), 0.0),
+    ],
+    ids=str,
+)
+def test_a_pause_is_owed_after_a_broadcast_and_the_calibration_of_the_factory(request_: Any, seconds: float) -> None:
+    assert seconds == modbus.pause_after(request_, M_7017)
+
+
 def test_the_codes_of_exceptions_are_those_of_the_modbus_specification() -> None:
     assert list(modbus.ExceptionCode) == [0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0A, 0x0B]
 

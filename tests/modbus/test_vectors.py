@@ -47,6 +47,7 @@ def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
     request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
 
     assert modbus_message_of(vector["response"]) == modbus.decode_response(wire(vector, "response"), request, profile)
+    assert len(wire(vector, "response")) <= modbus.longest_response(request, profile)
 
 
 @pytest.mark.parametrize("vector", modbus_vectors("reject"))

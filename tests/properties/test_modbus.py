@@ -262,7 +262,8 @@ def test_the_answer_of_another_module_is_refused(exchange: Exchange, address: in
 @given(exchanges(), st.data())
 def test_the_answer_to_another_function_is_refused(exchange: Exchange, data: st.DataObject) -> None:
     asked = type(exchange.request)
-    others = [kind for kind in modbus.REQUESTS if kind is not asked and kind.section not in exchange.profile.refused]
+    refused = exchange.profile.refused
+    others = [kind for kind in modbus.REQUESTS if kind is not asked and kind.availability not in refused]
     other = evolve(data.draw(requests(exchange.profile, *others)), address=exchange.request.address)
     assume(other.function != asked.function or not isinstance(exchange.response, modbus.ExceptionResponse))
 

@@ -94,7 +94,7 @@ def test_requests_and_responses_are_those_of_the_module(model: Model, data: st.D
 def test_a_profile_for_a_request_has_it(kind: type[modbus.Request[Any]], data: st.DataObject) -> None:
     profile = data.draw(profiles_with(kind))
 
-    assert kind.section not in profile.refused
+    assert kind.availability not in profile.refused
     assert isinstance(data.draw(requests(profile, kind)), kind)
 
 
@@ -128,7 +128,7 @@ def test_all_that_a_module_takes_is_made(model: Model, kind: type[modbus.Request
 @pytest.mark.parametrize(
     "refusal",
     [
-        lambda request: request.section in PLAINEST.refused,
+        lambda request: request.availability in PLAINEST.refused,
         lambda request: getattr(request, "channel", 0) >= PLAINEST.channels,
         lambda request: isinstance(request, modbus.SetMiscellaneousSettings) and request.settings & 1,
     ],

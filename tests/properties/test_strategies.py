@@ -123,7 +123,7 @@ def test_commands_and_responses_are_those_of_the_module(model: Model, data: st.D
 def test_a_profile_for_a_command_has_it(kind: type[dcon.AnyCommand], data: st.DataObject) -> None:
     profile = data.draw(profiles_with(kind))
 
-    assert kind.section not in profile.refused
+    assert kind.availability not in profile.refused
     assert isinstance(data.draw(commands(profile, kind)), kind)
 
 
@@ -152,7 +152,7 @@ def test_all_that_a_module_takes_is_made(model: Model, kind: type[dcon.AnyComman
 @pytest.mark.parametrize(
     "refusal",
     [
-        lambda command: command.section in PLAINEST.refused,
+        lambda command: command.availability in PLAINEST.refused,
         lambda command: getattr(command, "channel", 0) >= PLAINEST.channels,
         lambda command: isinstance(command, dcon.SetConfiguration) and command.report_settings.reserved,
     ],

@@ -3,7 +3,7 @@
 from attrs import evolve
 from hypothesis import strategies as st
 
-from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol
+from i7000 import CharacterFormat, Firmware, LineSettings, ModbusDataFormat, Model, Protocol, dcon
 from i7000.device import Eeprom, Log, LogCommand, Record, factory
 from i7000.device.state import profile_of
 from i7000.strategies import firmwares, line_settings, report_settings
@@ -61,7 +61,7 @@ def eeproms(draw: st.DrawFn) -> Eeprom:
         open_wire_detection=draw(st.booleans()),
         address=draw(st.integers(0, 0xFF)),
         line_settings=draw(line_settings(profile)),
-        single_ended=draw(st.booleans()) and "2.43" not in profile.refused,
+        single_ended=draw(st.booleans()) and dcon.SetConnectingMode.availability not in profile.refused,
         modbus_data_format=draw(st.sampled_from(ModbusDataFormat)) if has_modbus else ModbusDataFormat.HEX,
         cjc_offset=draw(st.integers(-0x1000, 0x1000)),
         cjc_enabled=draw(st.booleans()),

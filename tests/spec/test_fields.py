@@ -13,7 +13,7 @@ from i7000.device import Signals, advance, factory, power_on, step
 from i7000.modbus.cold_junction import FIRST_CHANNEL, offset_in_celsius
 from tests.spec import lint
 from tests.spec.cells import Cell, row_id, wrong
-from tests.vectors import MESSAGES, MODBUS_MESSAGES, message_of, modbus_message_of
+from tests.vectors import AVAILABILITY, MESSAGES, MODBUS_MESSAGES, message_of, modbus_message_of
 
 if TYPE_CHECKING:
     from tests.spec.lint import Record
@@ -74,7 +74,7 @@ def taken(name: str, field: Record, profiles: list[Profile]) -> list[bool]:
 
 
 def having(section: str) -> list[Profile]:
-    return [profile for profile in PROFILES if section not in profile.refused]
+    return [profile for profile in PROFILES if AVAILABILITY[section] not in profile.refused]
 
 
 LIMITED = [

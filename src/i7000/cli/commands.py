@@ -58,7 +58,7 @@ def commands(
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
     kinds = _KINDS[protocol] if name or protocol != "auto" else dcon.COMMANDS
     chosen = commands_named(name, kinds) if name else kinds
-    having = {kind: [it.model.value for it in profiles if kind.section not in it.refused] for kind in chosen}
+    having = {kind: [it.model.value for it in profiles if kind.availability not in it.refused] for kind in chosen}
     if not any(having.values()):
         raise UsageError(f"{model} has no {' or '.join(sorted({kind.__name__ for kind in chosen}))}")
     shown: set[str] = set()

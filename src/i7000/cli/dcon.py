@@ -26,9 +26,10 @@ from i7000 import (
     TypeCode,
     Unit,
     dcon,
+    modbus,
 )
+from i7000.availability import Availability
 from i7000.message import Message
-from i7000.models import AVAILABILITY
 from i7000.profile import LAST_LEGACY
 
 __all__ = ["ChannelReading", "Fit", "Known", "Meaning", "errata", "gates", "is_command", "scope"]
@@ -187,9 +188,14 @@ def _errata(docstring: str) -> tuple[str, ...]:
     return tuple(f"E{int(number):02d}" for number in re.findall(r"\bE(\d+)\b", manual))
 
 
+_AVAILABILITY: dict[str, Availability] = {
+    kind.section: kind.availability for kinds in (dcon.COMMANDS, modbus.REQUESTS) for kind in kinds
+}
+
+
 def gates(section: str) -> dict[Model, Firmware | None]:
     """List the models that have a command, and the firmware from which on."""
-    return dict(AVAILABILITY[section].gates) if section in AVAILABILITY else dict.fromkeys(Model)
+    return dict(_AVAILABILITY[section].gates) if section in _AVAILABILITY else dict.fromkeys(Model)
 
 
 def scope(models: Iterable[Model], section: str) -> str:
@@ -201,8 +207,8 @@ def scope(models: Iterable[Model], section: str) -> str:
     models = set(models)
     if models == set(Model):
         return "all models"
-    if section in AVAILABILITY and models == set(AVAILABILITY[section].gates):
-        return AVAILABILITY[section].scope
+    if section in _AVAILABILITY and models == set(_AVAILABILITY[section].gates):
+        return _AVAILABILITY[section].scope
     others = set(Model) - models
     few = min(models, others, key=len)
     names = ", ".join(model.value for model in Model if model in few)

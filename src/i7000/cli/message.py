@@ -68,7 +68,7 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
         except EncodeError as refusal:
             refusals.append((profile, refusal))
     if not frames:
-        having = (refusal for profile, refusal in refusals if message.section not in profile.refused)
+        having = (refusal for profile, refusal in refusals if message.availability not in profile.refused)
         raise next(having, refusals[0][1])
     first, *others = frames
     if others:

@@ -14,6 +14,7 @@ from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
 
 from i7000 import DataFormat, DecodeError, Fault, Profile, Status, TypeCode, dcon
+from i7000.availability import Availability
 from i7000.cli.dcon import ChannelReading, Fit, Known, Meaning, is_command
 from i7000.readings import decode_field
 
@@ -194,11 +195,11 @@ def _answer(command: dcon.Command[Any], group: _Group, frame: bytes) -> Iterator
 
 
 _Kinds = tuple[tuple[type[dcon.Response], _Group], ...]
-_RESPONSES: dict[type[dcon.Response], tuple[str, ...]] = {dcon.Refused: ()}
-"""Every response, and the sections of the commands that have it; a refusal is that of any."""
+_RESPONSES: dict[type[dcon.Response], tuple[Availability, ...]] = {dcon.Refused: ()}
+"""Every response, and who has the commands that it answers; a refusal is that of any."""
 for _kind in dcon.COMMANDS:
     if issubclass(_kind, dcon.Command):
-        _RESPONSES[_kind.response] = (*_RESPONSES.get(_kind.response, ()), _kind.section)
+        _RESPONSES[_kind.response] = (*_RESPONSES.get(_kind.response, ()), _kind.availability)
 
 
 def _alone_attempts(places: _Places) -> Iterator[tuple[int, _Attempt]]:
@@ -208,8 +209,8 @@ def _alone_attempts(places: _Places) -> Iterator[tuple[int, _Attempt]]:
         by_form.setdefault(_RESPONSE_FORM(profile), []).append((place, profile))
     for alike in by_form.values():
         kinds = []
-        for kind, sections in _RESPONSES.items():
-            having = [(place, it) for place, it in alike if not sections or not it.refused.issuperset(sections)]
+        for kind, who in _RESPONSES.items():
+            having = [(place, it) for place, it in alike if not who or not it.refused.issuperset(who)]
             if having:
                 kinds.append((kind, _Group(having[0][1], tuple(map(_PLACE, having)))))
         yield alike[0][0], partial(_response, tuple(kinds))

@@ -16,7 +16,6 @@ from i7000.cli.registers import Cell, cells
 from i7000.cli.rtu import Listener, Meaning, profiles
 from i7000.cli.words import line_settings_words, mask_words, module_name_words, type_code_words
 from i7000.modbus.cold_junction import offset_in_celsius
-from i7000.models import AVAILABILITY
 
 __all__ = ["explain", "line_records", "meaning_record", "request_record"]
 
@@ -66,7 +65,7 @@ def meaning_record(meaning: Meaning, known: Known) -> Record:
     touched = tuple(cells(message, request, profile))
     values = {name: getattr(message, name) for name in message_fields(kind)}
     section = request.section if request else message.section
-    models = dict.fromkeys(it.model for it in meaning.profiles if section not in it.refused)
+    models = dict.fromkeys(it.model for it in meaning.profiles if (request or message).availability not in it.refused)
     readings = [_reading(cell) for cell in touched if cell.reading]
     return empty_record() | {
         "name": kind.__name__,
@@ -86,7 +85,7 @@ def meaning_record(meaning: Meaning, known: Known) -> Record:
         "models": [model.value for model in models],
         "data_formats": [meaning.profiles[0].modbus_data_format.name.lower()] if readings else [],
         "assumed": ["type"] if readings and known.types is None and meaning.profiles[0].type_codes else [],
-        "note": _note(meaning, known, section, analog=bool(readings)),
+        "note": _note(meaning, known, analog=bool(readings)),
     }
 
 
@@ -129,11 +128,12 @@ def _register(cell: Cell) -> Record:
     }
 
 
-def _note(meaning: Meaning, known: Known, section: str, *, analog: bool) -> str | None:
+def _note(meaning: Meaning, known: Known, *, analog: bool) -> str | None:
     """What a reader has to know about a meaning."""
     profile = meaning.profiles[0]
-    if known.model and section in profile.refused:
-        return f"{profile.name} has no {meaning.message.title} by Modbus: {AVAILABILITY[section].scope}"
+    availability = (meaning.request or meaning.message).availability
+    if known.model and availability in profile.refused:
+        return f"{profile.name} has no {meaning.message.title} by Modbus: {availability.scope}"
     if analog and known.modbus_data_format is None:
         return "the Modbus data format is not known, read as hex: --modbus-format tells"
     return None

@@ -1,208 +1,48 @@
 """The DCON protocol (manual 2): every command and response, and the functions that write and read them.
 
 `encode` and `decode_response` are the host's side, `decode_command` and `encode` the module's; `split` finds frames in
-what a line delivers; `readings` tells what the fields of a report mean. All of it is named here.
+what a line delivers; `readings` tells what the fields of a report mean. All that their modules name in
+`__all__` is public, and is found here.
 """
 
-from i7000.dcon.calibration import (
-    CalibrateChannelSpan,
-    CalibrateChannelZero,
-    CalibrateCurrentChannelSpan,
-    CalibrateInternally,
-    CalibrateSpan,
-    CalibrateZero,
-    ReloadDefaultCalibration,
-    SetCalibrationEnabled,
+from i7000.dcon import (
+    calibration,
+    codec,
+    cold_junction,
+    command,
+    configuration,
+    frame,
+    identity,
+    inputs,
+    open_wire,
+    reports,
+    sampling,
+    watchdog,
 )
+from i7000.dcon.calibration import *
 from i7000.dcon.candidates import candidates, response_candidates
-from i7000.dcon.codec import (
-    COMMANDS,
-    AnyCommand,
-    decode_command,
-    decode_response,
-    encode,
-    longest_response,
-    pause_after,
-)
-from i7000.dcon.cold_junction import (
-    CjcEnabled,
-    CjcOffset,
-    CjcTemperature,
-    CjcUpdateSetting,
-    ReadCjcEnabled,
-    ReadCjcOffset,
-    ReadCjcTemperature,
-    ReadCjcUpdate,
-    SetCjcEnabled,
-    SetCjcOffset,
-    SetCjcUpdate,
-)
-from i7000.dcon.command import (
-    Acknowledged,
-    Broadcast,
-    Command,
-    Message,
-    Refused,
-    Response,
-)
-from i7000.dcon.configuration import (
-    ChannelTypeCode,
-    Configuration,
-    ReadChannelTypeCode,
-    ReadConfiguration,
-    SetChannelTypeCode,
-    SetConfiguration,
-)
-from i7000.dcon.frame import (
-    LONGEST_FRAME,
-    checksum,
-    seal,
-    split,
-    unseal,
-)
-from i7000.dcon.identity import (
-    FirmwareVersion,
-    ModuleName,
-    ProtocolSetting,
-    ReadFirmwareVersion,
-    ReadModuleName,
-    ReadProtocol,
-    SetModuleName,
-    SetProtocol,
-    SetSoftInitTimeout,
-    SoftInit,
-)
-from i7000.dcon.inputs import (
-    AnalogInput,
-    AnalogInputs,
-    AnalogInputsHex,
-    ChannelMask,
-    ConnectingMode,
-    Diagnostics,
-    ReadAnalogInput,
-    ReadAnalogInputs,
-    ReadAnalogInputsHex,
-    ReadChannelMask,
-    ReadConnectingMode,
-    ReadDiagnostics,
-    SetChannelMask,
-    SetConnectingMode,
-    channels_of,
-    mask_of,
-)
-from i7000.dcon.open_wire import (
-    OpenWireDetection,
-    ReadOpenWireDetection,
-    SetOpenWireDetection,
-)
-from i7000.dcon.reports import (
-    field,
-    fields,
-    reading,
-    readings,
-)
-from i7000.dcon.sampling import (
-    ReadSynchronizedData,
-    SynchronizedData,
-    SynchronizedSampling,
-)
-from i7000.dcon.watchdog import (
-    HostOk,
-    HostWatchdogStatus,
-    HostWatchdogTimeout,
-    ReadHostWatchdogStatus,
-    ReadHostWatchdogTimeout,
-    ResetHostWatchdogStatus,
-    SetHostWatchdogTimeout,
-)
+from i7000.dcon.codec import *
+from i7000.dcon.cold_junction import *
+from i7000.dcon.command import *
+from i7000.dcon.configuration import *
+from i7000.dcon.frame import *
+from i7000.dcon.identity import *
+from i7000.dcon.inputs import *
+from i7000.dcon.open_wire import *
+from i7000.dcon.reports import *
+from i7000.dcon.sampling import *
+from i7000.dcon.watchdog import *
 
-__all__ = [
-    "COMMANDS",
-    "LONGEST_FRAME",
-    "Acknowledged",
-    "AnalogInput",
-    "AnalogInputs",
-    "AnalogInputsHex",
-    "AnyCommand",
-    "Broadcast",
-    "CalibrateChannelSpan",
-    "CalibrateChannelZero",
-    "CalibrateCurrentChannelSpan",
-    "CalibrateInternally",
-    "CalibrateSpan",
-    "CalibrateZero",
-    "ChannelMask",
-    "ChannelTypeCode",
-    "CjcEnabled",
-    "CjcOffset",
-    "CjcTemperature",
-    "CjcUpdateSetting",
-    "Command",
-    "Configuration",
-    "ConnectingMode",
-    "Diagnostics",
-    "FirmwareVersion",
-    "HostOk",
-    "HostWatchdogStatus",
-    "HostWatchdogTimeout",
-    "Message",
-    "ModuleName",
-    "OpenWireDetection",
-    "ProtocolSetting",
-    "ReadAnalogInput",
-    "ReadAnalogInputs",
-    "ReadAnalogInputsHex",
-    "ReadChannelMask",
-    "ReadChannelTypeCode",
-    "ReadCjcEnabled",
-    "ReadCjcOffset",
-    "ReadCjcTemperature",
-    "ReadCjcUpdate",
-    "ReadConfiguration",
-    "ReadConnectingMode",
-    "ReadDiagnostics",
-    "ReadFirmwareVersion",
-    "ReadHostWatchdogStatus",
-    "ReadHostWatchdogTimeout",
-    "ReadModuleName",
-    "ReadOpenWireDetection",
-    "ReadProtocol",
-    "ReadSynchronizedData",
-    "Refused",
-    "ReloadDefaultCalibration",
-    "ResetHostWatchdogStatus",
-    "Response",
-    "SetCalibrationEnabled",
-    "SetChannelMask",
-    "SetChannelTypeCode",
-    "SetCjcEnabled",
-    "SetCjcOffset",
-    "SetCjcUpdate",
-    "SetConfiguration",
-    "SetConnectingMode",
-    "SetHostWatchdogTimeout",
-    "SetModuleName",
-    "SetOpenWireDetection",
-    "SetProtocol",
-    "SetSoftInitTimeout",
-    "SoftInit",
-    "SynchronizedData",
-    "SynchronizedSampling",
-    "candidates",
-    "channels_of",
-    "checksum",
-    "decode_command",
-    "decode_response",
-    "encode",
-    "field",
-    "fields",
-    "longest_response",
-    "mask_of",
-    "pause_after",
-    "reading",
-    "readings",
-    "response_candidates",
-    "seal",
-    "split",
-    "unseal",
-]
+__all__ = ["candidates", "response_candidates"]
+__all__ += calibration.__all__
+__all__ += codec.__all__
+__all__ += cold_junction.__all__
+__all__ += command.__all__
+__all__ += configuration.__all__
+__all__ += frame.__all__
+__all__ += identity.__all__
+__all__ += inputs.__all__
+__all__ += open_wire.__all__
+__all__ += reports.__all__
+__all__ += sampling.__all__
+__all__ += watchdog.__all__

@@ -7,6 +7,7 @@ opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and 
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command
 from i7000.message import frozen
@@ -35,6 +36,7 @@ class CalibrateSpan(Command[Acknowledged]):
     syntax = "$AA0"
     section = "2.5"
     title = "span calibration of the whole module"
+    availability = Availability.SERIES_7017_7018
 
 
 class CalibrateZero(Command[Acknowledged]):
@@ -48,6 +50,7 @@ class CalibrateZero(Command[Acknowledged]):
     syntax = "$AA1"
     section = "2.6"
     title = "zero calibration of the whole module"
+    availability = Availability.SERIES_7017_7018
 
 
 @frozen
@@ -62,6 +65,7 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
     syntax = "$AA0Ci"
     section = "2.7"
     title = "span calibration of single current inputs"
+    availability = Availability.M_7017MC_16
 
     channel: layout.CalibratedChannel
 
@@ -80,6 +84,7 @@ class CalibrateChannelZero(Command[Acknowledged]):
     syntax = "$AA0Ci"
     section = "2.8"
     title = "zero calibration of single channels"
+    availability = Availability.SERIES_7019
 
     channel: layout.CalibratedChannel
 
@@ -102,6 +107,7 @@ class CalibrateChannelSpan(Command[Acknowledged]):
     syntax = "$AA1Ci"
     section = "2.9"
     title = "span calibration of single channels"
+    availability = Availability.SERIES_7019
 
     channel: layout.CalibratedChannel
 
@@ -121,6 +127,7 @@ class CalibrateInternally(Command[Acknowledged]):
     syntax = "$AAS0"
     section = "2.27"
     title = "internal calibration"
+    availability = Availability.SERIES_7019
 
 
 class ReloadDefaultCalibration(Command[Acknowledged]):
@@ -135,6 +142,7 @@ class ReloadDefaultCalibration(Command[Acknowledged]):
     syntax = "$AAS1"
     section = "2.28"
     title = "default calibration to reload"
+    availability = Availability.SOFT_INIT
 
 
 @frozen
@@ -150,3 +158,16 @@ class SetCalibrationEnabled(Command[Acknowledged]):
     title = "calibration switch"
 
     enabled: layout.FlagV = field(kw_only=True)
+
+
+COMMANDS = (
+    CalibrateSpan,
+    CalibrateZero,
+    CalibrateCurrentChannelSpan,
+    CalibrateChannelZero,
+    CalibrateChannelSpan,
+    CalibrateInternally,
+    ReloadDefaultCalibration,
+    SetCalibrationEnabled,
+)
+"""The commands of this module, by section."""

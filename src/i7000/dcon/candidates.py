@@ -40,7 +40,7 @@ def _response_profiles() -> tuple[Profile, ...]:
 def candidates(frame: bytes) -> tuple[AnyCommand, ...]:
     r"""Read a frame that a host sent to an unknown module: every command that it could be, by section.
 
-    Shape: frames with and without checksum are thought of; `i7000.models.AVAILABILITY` tells which models have which.
+    Shape: frames with and without checksum are thought of; `availability` of a command tells which models have it.
     Errors: `DecodeError` if it is no command of any model.
     Manual: 2; E7, E8, E93.
 

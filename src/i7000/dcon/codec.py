@@ -9,64 +9,22 @@ from collections.abc import Iterable
 from typing import Any, TypeVar
 
 from i7000.arguments import as_bytes, check_type
-from i7000.dcon.calibration import (
-    CalibrateChannelSpan,
-    CalibrateChannelZero,
-    CalibrateCurrentChannelSpan,
-    CalibrateInternally,
-    CalibrateSpan,
-    CalibrateZero,
-    ReloadDefaultCalibration,
-    SetCalibrationEnabled,
+from i7000.dcon import (
+    calibration,
+    cold_junction,
+    configuration,
+    identity,
+    inputs,
+    open_wire,
+    sampling,
+    watchdog,
 )
-from i7000.dcon.cold_junction import (
-    ReadCjcEnabled,
-    ReadCjcOffset,
-    ReadCjcTemperature,
-    ReadCjcUpdate,
-    SetCjcEnabled,
-    SetCjcOffset,
-    SetCjcUpdate,
-)
+from i7000.dcon.calibration import CalibrateChannelSpan, CalibrateChannelZero, ReloadDefaultCalibration
 from i7000.dcon.command import Broadcast, Command, Message, Refused, Response
-from i7000.dcon.configuration import (
-    ChannelTypeCode,
-    ReadChannelTypeCode,
-    ReadConfiguration,
-    SetChannelTypeCode,
-    SetConfiguration,
-)
+from i7000.dcon.configuration import ChannelTypeCode, ReadConfiguration
 from i7000.dcon.frame import COMMAND_LEADS, sealed, unseal
-from i7000.dcon.identity import (
-    ReadFirmwareVersion,
-    ReadModuleName,
-    ReadProtocol,
-    SetModuleName,
-    SetProtocol,
-    SetSoftInitTimeout,
-    SoftInit,
-)
-from i7000.dcon.inputs import (
-    ReadAnalogInput,
-    ReadAnalogInputs,
-    ReadAnalogInputsHex,
-    ReadChannelMask,
-    ReadConnectingMode,
-    ReadDiagnostics,
-    SetChannelMask,
-    SetConnectingMode,
-)
-from i7000.dcon.open_wire import ReadOpenWireDetection, SetOpenWireDetection
-from i7000.dcon.sampling import ReadSynchronizedData, SynchronizedSampling
-from i7000.dcon.watchdog import (
-    HostOk,
-    ReadHostWatchdogStatus,
-    ReadHostWatchdogTimeout,
-    ResetHostWatchdogStatus,
-    SetHostWatchdogTimeout,
-)
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.models import AVAILABILITY, Firmware
+from i7000.models import Firmware
 from i7000.profile import Profile
 
 __all__ = [
@@ -75,6 +33,7 @@ __all__ = [
     "decode_command",
     "decode_response",
     "encode",
+    "is_answered",
     "longest_response",
     "pause_after",
 ]
@@ -82,50 +41,10 @@ __all__ = [
 AnyCommand = Command[Any] | Broadcast
 """What a host sends."""
 
-COMMANDS: tuple[type[AnyCommand], ...] = (
-    SetConfiguration,  # 2.1
-    SynchronizedSampling,
-    ReadAnalogInputs,
-    ReadAnalogInput,
-    CalibrateSpan,  # 2.5
-    CalibrateZero,
-    CalibrateCurrentChannelSpan,
-    CalibrateChannelZero,
-    CalibrateChannelSpan,
-    ReadConfiguration,  # 2.10
-    ReadCjcTemperature,
-    ReadSynchronizedData,
-    SetChannelMask,
-    ReadChannelMask,
-    SetChannelTypeCode,  # 2.15
-    ReadChannelTypeCode,
-    ReadCjcOffset,
-    SetCjcOffset,
-    ReadAnalogInputsHex,
-    ReadCjcUpdate,  # 2.20
-    SetCjcUpdate,
-    ReadDiagnostics,
-    ReadFirmwareVersion,
-    ReadModuleName,
-    ReadProtocol,  # 2.25
-    SetProtocol,
-    CalibrateInternally,
-    ReloadDefaultCalibration,
-    ReadCjcEnabled,
-    SetCjcEnabled,  # 2.30
-    SetCalibrationEnabled,
-    SoftInit,
-    SetModuleName,
-    SetSoftInitTimeout,
-    HostOk,  # 2.35
-    ReadHostWatchdogStatus,
-    ResetHostWatchdogStatus,
-    ReadHostWatchdogTimeout,
-    SetHostWatchdogTimeout,
-    ReadOpenWireDetection,  # 2.40
-    SetOpenWireDetection,
-    ReadConnectingMode,
-    SetConnectingMode,
+_FAMILIES = (calibration, cold_junction, configuration, identity, inputs, open_wire, sampling, watchdog)
+_FOUND: list[type[AnyCommand]] = [command for family in _FAMILIES for command in family.COMMANDS]
+COMMANDS: tuple[type[AnyCommand], ...] = tuple(
+    sorted(_FOUND, key=lambda command: [int(number) for number in command.section.split(".")])
 )
 """Every command, in the order of the manual's sections 2.1 to 2.43."""
 
@@ -166,9 +85,9 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
         check_type("force", force, bool)
         message.layout.check_digits(message, profile)
     else:
-        if message.section in profile.refused:
+        if message.availability in profile.refused:
             raise EncodeError(
-                "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
+                "model", profile.model.value, message.availability.scope, message.section,
                 f"{profile.name} has no {message.title}",
             )  # fmt: skip
         message.check(profile)
@@ -199,17 +118,17 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
             message: AnyCommand = command.layout.decode(body, profile)
         except (KeyError, DecodeError):
             continue
-        if command.section not in profile.refused:
+        if command.availability not in profile.refused:
             return message
         refused = command
     if refused is not None:
         at = 3 if body[0] in _LETTERED else 1
-        allowed = f"{refused.title} is there on {AVAILABILITY[refused.section].scope}"
+        allowed = f"{refused.title} is there on {refused.availability.scope}"
         raise DecodeError(Fault.UNSUPPORTED, frame, at, allowed=allowed, section=refused.section)
     if not known or (body[0] in _LETTERED and len(body) <= 3 and body[1:2] != "*"):
         fault = Fault.COMMAND if len(body) > 3 else Fault.LENGTH
         raise DecodeError(fault, frame, min(len(body), 3), allowed="a command of chapter 2", section="2")
-    there = [command for command in known if command.section not in profile.refused] or known
+    there = [command for command in known if command.availability not in profile.refused] or known
     raise deepest(command.layout.explain(body, profile, frame, command.section) for command in there)
 
 
@@ -261,6 +180,16 @@ def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # 
 
 
 # --- what a driver has to plan for ------------------------------------------------------------------------------------
+
+
+def is_answered(command: AnyCommand) -> bool:
+    """Return whether a module answers: not if the command is a broadcast.
+
+    >>> is_answered(ReadConfiguration(0x01))
+    True
+    """
+    check_type("command", command, Command, Broadcast)
+    return isinstance(command, Command)
 
 
 def longest_response(command: AnyCommand, profile: Profile) -> int:

@@ -2,6 +2,7 @@
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
@@ -51,6 +52,7 @@ class ReadCjcTemperature(Command[CjcTemperature]):
     syntax = "$AA3"
     section = "2.11"
     title = "CJC temperature"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -91,6 +93,7 @@ class ReadCjcOffset(Command[CjcOffset]):
     syntax = "$AA9"
     section = "2.17"
     title = "CJC offset"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -109,6 +112,7 @@ class SetCjcOffset(Command[Acknowledged]):
     syntax = "$AA9SNNNN"
     section = "2.18"
     title = "CJC offset"
+    availability = Availability.SERIES_7018_7019
 
     offset: layout.Offset
 
@@ -144,6 +148,7 @@ class ReadCjcUpdate(Command[CjcUpdateSetting]):
     syntax = "$AAA"
     section = "2.20"
     title = "CJC update setting"
+    availability = Availability.SERIES_7019
 
 
 @frozen
@@ -158,6 +163,7 @@ class SetCjcUpdate(Command[Acknowledged]):
     syntax = "$AAAi"
     section = "2.21"
     title = "CJC update setting"
+    availability = Availability.SERIES_7019
 
     update: layout.Update
 
@@ -189,6 +195,7 @@ class ReadCjcEnabled(Command[CjcEnabled]):
     syntax = "~AAC"
     section = "2.29"
     title = "CJC switch"
+    availability = Availability.SERIES_7018_7019
 
 
 @frozen
@@ -203,5 +210,18 @@ class SetCjcEnabled(Command[Acknowledged]):
     syntax = "~AACN"
     section = "2.30"
     title = "CJC switch"
+    availability = Availability.SERIES_7018_7019
 
     enabled: layout.FlagN = field(kw_only=True)
+
+
+COMMANDS = (
+    ReadCjcTemperature,
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadCjcUpdate,
+    SetCjcUpdate,
+    ReadCjcEnabled,
+    SetCjcEnabled,
+)
+"""The commands of this module, by section."""

@@ -55,7 +55,7 @@ class Command(Message, Generic[R]):
 
     def __init_subclass__(cls) -> None:
         super(Command, cls).__init_subclass__()  # noqa: UP008 - `frozen`
-        cls.response = message.type_of_answer(cls)
+        cls.response = message.answer_of(cls)
 
     @property
     def answering_address(self) -> int:

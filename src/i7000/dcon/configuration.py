@@ -8,6 +8,7 @@ from typing import Any
 
 from attrs import evolve
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
@@ -119,6 +120,7 @@ class SetChannelTypeCode(Command[Acknowledged]):
     syntax = "$AA7CiRrr"
     section = "2.15"
     title = "type code of single channels"
+    availability = Availability.CONFIGURABLE
 
     channel: layout.ChannelI
     type_code: layout.ChannelTypeCode
@@ -160,9 +162,19 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
     syntax = "$AA8Ci"
     section = "2.16"
     title = "type code of single channels"
+    availability = Availability.CONFIGURABLE
 
     channel: layout.ChannelI
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
         profile.check_channel(self.channel, self.section)
+
+
+COMMANDS = (
+    SetConfiguration,
+    ReadConfiguration,
+    SetChannelTypeCode,
+    ReadChannelTypeCode,
+)
+"""The commands of this module, by section."""

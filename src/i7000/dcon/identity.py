@@ -5,6 +5,7 @@ Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.errors import EncodeError
@@ -137,6 +138,7 @@ class ReadProtocol(Command[ProtocolSetting]):
     syntax = "$AAP"
     section = "2.25"
     title = "protocol"
+    availability = Availability.M_SERIES
 
 
 @frozen
@@ -151,6 +153,7 @@ class SetProtocol(Command[Acknowledged]):
     syntax = "$AAPN"
     section = "2.26"
     title = "protocol"
+    availability = Availability.M_SERIES
 
     protocol: layout.ProtocolN
 
@@ -167,6 +170,7 @@ class SoftInit(Command[Acknowledged]):
     syntax = "~AAI"
     section = "2.32"
     title = "soft INIT"
+    availability = Availability.SOFT_INIT
 
 
 @frozen
@@ -184,6 +188,7 @@ class SetSoftInitTimeout(Command[Acknowledged]):
     syntax = "~AATnn"
     section = "2.34"
     title = "soft INIT time-out"
+    availability = Availability.SOFT_INIT
 
     timeout: layout.Seconds
 
@@ -191,3 +196,15 @@ class SetSoftInitTimeout(Command[Acknowledged]):
         """Refuse a longer time-out."""
         if self.timeout > LONGEST_TIMEOUT:
             raise EncodeError("timeout", self.timeout, f"0..{LONGEST_TIMEOUT} s", self.section)
+
+
+COMMANDS = (
+    ReadFirmwareVersion,
+    ReadModuleName,
+    ReadProtocol,
+    SetProtocol,
+    SoftInit,
+    SetModuleName,
+    SetSoftInitTimeout,
+)
+"""The commands of this module, by section."""

@@ -8,6 +8,7 @@ mean is told by `i7000.dcon.readings`.
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
@@ -149,6 +150,7 @@ class ReadAnalogInputsHex(Command[AnalogInputsHex]):
     syntax = "$AAA"
     section = "2.19"
     title = "reading of all channels in hex"
+    availability = Availability.SERIES_7017
 
 
 @frozen
@@ -237,6 +239,7 @@ class ReadDiagnostics(Command[Diagnostics]):
     syntax = "$AAB"
     section = "2.22"
     title = "channel diagnostics"
+    availability = Availability.SERIES_7019
 
 
 @frozen
@@ -266,6 +269,7 @@ class ReadConnectingMode(Command[ConnectingMode]):
     syntax = "@AAS"
     section = "2.42"
     title = "connecting mode"
+    availability = Availability.SERIES_7017Z
 
 
 @frozen
@@ -280,5 +284,19 @@ class SetConnectingMode(Command[Acknowledged]):
     syntax = "@AASN"
     section = "2.43"
     title = "connecting mode"
+    availability = Availability.SERIES_7017Z
 
     single_ended: layout.FlagN = field(kw_only=True)
+
+
+COMMANDS = (
+    ReadAnalogInputs,
+    ReadAnalogInput,
+    SetChannelMask,
+    ReadChannelMask,
+    ReadAnalogInputsHex,
+    ReadDiagnostics,
+    ReadConnectingMode,
+    SetConnectingMode,
+)
+"""The commands of this module, by section."""

@@ -5,6 +5,7 @@ Laws: the second letter of ``~AAEO`` is the letter O, where ``~AAE0`` with the d
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
@@ -39,6 +40,7 @@ class ReadOpenWireDetection(Command[OpenWireDetection]):
     syntax = "~AAEO"
     section = "2.40"
     title = "open wire detection setting"
+    availability = Availability.OPEN_WIRE
 
 
 @frozen
@@ -53,5 +55,13 @@ class SetOpenWireDetection(Command[Acknowledged]):
     syntax = "~AAEON"
     section = "2.41"
     title = "open wire detection setting"
+    availability = Availability.OPEN_WIRE
 
     enabled: layout.FlagN = field(kw_only=True)
+
+
+COMMANDS = (
+    ReadOpenWireDetection,
+    SetOpenWireDetection,
+)
+"""The commands of this module, by section."""

@@ -5,6 +5,7 @@ Models: 7019 series.
 
 from attrs import field
 
+from i7000.availability import Availability
 from i7000.dcon import layout
 from i7000.dcon.command import Broadcast, Command, Response
 from i7000.dcon.inputs import check_values
@@ -27,6 +28,7 @@ class SynchronizedSampling(Broadcast):
     syntax = "#**"
     section = "2.2"
     title = "synchronized sampling"
+    availability = Availability.SERIES_7019
 
 
 @frozen
@@ -63,3 +65,11 @@ class ReadSynchronizedData(Command[SynchronizedData]):
     syntax = "$AA4"
     section = "2.12"
     title = "synchronized sampling"
+    availability = Availability.SERIES_7019
+
+
+COMMANDS = (
+    SynchronizedSampling,
+    ReadSynchronizedData,
+)
+"""The commands of this module, by section."""

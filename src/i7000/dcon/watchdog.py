@@ -135,3 +135,13 @@ class SetHostWatchdogTimeout(Command[Acknowledged]):
 
     enabled: layout.FlagE = field(kw_only=True)
     timeout: layout.Tenths
+
+
+COMMANDS = (
+    HostOk,
+    ReadHostWatchdogStatus,
+    ResetHostWatchdogStatus,
+    ReadHostWatchdogTimeout,
+    SetHostWatchdogTimeout,
+)
+"""The commands of this module, by section."""

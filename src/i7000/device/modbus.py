@@ -61,9 +61,13 @@ def _code_of(error: DecodeError, state: State) -> ExceptionCode | None:
     return _unsupported(error.section, state) or ExceptionCode.ILLEGAL_DATA_VALUE
 
 
+_AVAILABILITY = {request.section: request.availability for request in modbus.REQUESTS}
+"""Who has the requests of a section; all that share a section are for the same models."""
+
+
 def _unsupported(section: str, state: State) -> ExceptionCode | None:
     """Tell how a function that the model does not have is answered: 01, and 02 for one of the sub-functions."""
-    if section not in state.profile.refused:
+    if _AVAILABILITY.get(section) not in state.profile.refused:
         return None
     return ExceptionCode.ILLEGAL_DATA_ADDRESS if section.startswith("3.3.") else ExceptionCode.ILLEGAL_FUNCTION
 

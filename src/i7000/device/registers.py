@@ -173,7 +173,7 @@ _READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
     **{f"rtc_{part}": _clock(at) for at, part in enumerate(DATE_PARTS)},
     **{f"log_{name}_{part}": _log_date(name, at) for name in ("start", "end") for at, part in enumerate(DATE_PARTS)},
 }
-"""What each row holds: a number for each of its items, of two's complement where it is negative."""
+"""What each row holds: a number for each of its items, of two's complement where it is negative; see E75, E77."""
 
 # --- writing ----------------------------------------------------------------------------------------------------------
 

@@ -15,13 +15,6 @@ __all__ = ["Exchange", "answers", "finish", "split"]
 
 R = TypeVar("R")
 
-_BROADCAST_PAUSE = 0.002
-_FACTORY_CALIBRATION = 271
-"""The coil 00272."""
-_FACTORY_CALIBRATION_PAUSE = 3.0
-_ENVELOPE = len("A") + len("CC")
-_EXCEPTION = len("FE") + _ENVELOPE
-
 
 @frozen
 class Exchange(Generic[R]):
@@ -38,9 +31,7 @@ class Exchange(Generic[R]):
 
         Errors: `EncodeError` of the codec.
         """
-        if isinstance(command, modbus.Request):
-            return cls(command, profile, modbus.encode(command, profile))
-        return cls(command, profile, dcon.encode(command, profile))
+        return cls(command, profile, _codec(command).encode(command, profile))
 
     @property
     def rtu(self) -> bool:
@@ -50,59 +41,35 @@ class Exchange(Generic[R]):
     @property
     def answered(self) -> bool:
         """Whether it is for one module."""
-        if isinstance(self.command, modbus.Request):
-            return modbus.is_answered(self.command)
-        return isinstance(self.command, dcon.Command)
+        answered: bool = _codec(self.command).is_answered(self.command)
+        return answered
 
     @property
     def longest_response(self) -> int:
         """Bytes of the longest answer, a refusal or exception included; 0 if there is none."""
-        if isinstance(self.command, modbus.Request):
-            return _longest_response(self.command, self.profile) if self.answered else 0
-        return dcon.longest_response(self.command, self.profile)
+        longest: int = _codec(self.command).longest_response(self.command, self.profile)
+        return longest
 
     @property
     def pause(self) -> float:
-        """Seconds that the module is to be left alone after the request.
-
-        Time: 2 ms after a broadcast; 3 s for the calibration of the factory; 16 s for old calibrations.
-        Manual: 2.2, 2.8, 2.9, 2.28, 2.35, 3.4.8, 3.4.9; E103.
-        """
-        if not isinstance(self.command, modbus.Request):
-            return dcon.pause_after(self.command, self.profile)
-        if _loads_factory_calibration(self.command):
-            return _FACTORY_CALIBRATION_PAUSE
-        return 0.0 if self.answered else _BROADCAST_PAUSE
+        """Seconds that the module is to be left alone after the request."""
+        pause: float = _codec(self.command).pause_after(self.command, self.profile)
+        return pause
 
     def read(self, frame: bytes) -> Answered[R] | Declined:
         """Read a frame as the answer.
 
-        Errors: `DecodeError` if it is none.
+        Errors: `DecodeError` for any other frame.
         """
-        command: Any = self.command
-        response: Any = (modbus if self.rtu else dcon).decode_response(frame, command, self.profile)
+        response: Any = _codec(self.command).decode_response(frame, self.command, self.profile)
         if isinstance(response, dcon.Refused | modbus.ExceptionResponse):
             return Declined(self.command, response)
         return Answered(self.command, response)
 
 
-def _longest_response(request: modbus.Request[Any], profile: Profile) -> int:
-    layout = request.response.layout
-    tail = {
-        "mask": profile.mask_digits // 2,
-        "words": 2 * getattr(request, "count", 0),
-        "bits": getattr(request, "count", 0) + 7 >> 3,
-    }.get(layout.tail, 0)
-    return max(layout.fixed + tail + len("CC"), _EXCEPTION)
-
-
-def _loads_factory_calibration(request: modbus.Request[Any]) -> bool:
-    if isinstance(request, modbus.WriteSingleCoil):
-        return request.coil == _FACTORY_CALIBRATION and request.value
-    if isinstance(request, modbus.WriteMultipleCoils):
-        at = _FACTORY_CALIBRATION - request.start
-        return 0 <= at < len(request.values) and request.values[at]
-    return False
+def _codec(command: AnyCommand) -> Any:  # noqa: ANN401 - a module
+    """Return the protocol of a command: both have functions of the same names."""
+    return modbus if isinstance(command, modbus.Request) else dcon
 
 
 Found = tuple[bytes | Noise, ...]

@@ -1,201 +1,44 @@
 """The Modbus RTU protocol (manual 3): every request and response, and the functions that write and read them.
 
 `encode` and `decode_response` are the host's side, `decode_request` and `encode` the module's; `split` and `flush` find
-frames in what a line delivers; `RegisterMap` knows what stands at which address. All of it is named here.
+frames in what a line delivers; `RegisterMap` knows what stands at which address. All that their modules name in
+`__all__` is public, and is found here.
 """
 
-from i7000.modbus.channel_settings import (
-    ChannelMask,
-    ChannelMaskResult,
-    MiscellaneousSettings,
-    MiscellaneousSettingsResult,
-    ReadChannelMask,
-    ReadMiscellaneousSettings,
-    ReadTypeCode,
-    SetChannelMask,
-    SetMiscellaneousSettings,
-    SetTypeCode,
-    TypeCodeResult,
-    TypeCodeSetting,
-    channels_of,
-    mask_of,
+from i7000.modbus import (
+    channel_settings,
+    codec,
+    cold_junction,
+    frame,
+    module_settings,
+    register_map,
+    register_values,
+    registers,
+    request,
+    standard,
+    stream,
 )
-from i7000.modbus.codec import (
-    REQUESTS,
-    decode_request,
-    decode_response,
-    encode,
-    is_answered,
-)
-from i7000.modbus.cold_junction import (
-    CjcEnabled,
-    CjcEnabledResult,
-    CjcOffset,
-    CjcOffsetResult,
-    CjcUpdateResult,
-    CjcUpdateSetting,
-    ReadCjcEnabled,
-    ReadCjcOffset,
-    ReadCjcUpdate,
-    SetCjcEnabled,
-    SetCjcOffset,
-    SetCjcUpdate,
-)
-from i7000.modbus.frame import (
-    LONGEST_FRAME,
-    SHORTEST_FRAME,
-    crc16,
-    seal,
-    unseal,
-)
-from i7000.modbus.module_settings import (
-    CommunicationSettings,
-    CommunicationSettingsResult,
-    FirmwareVersion,
-    ModuleAddressResult,
-    ModuleName,
-    ReadCommunicationSettings,
-    ReadFirmwareVersion,
-    ReadModuleName,
-    SetCommunicationSettings,
-    SetModuleAddress,
-)
-from i7000.modbus.register_map import (
-    Items,
-    Plan,
-    ReadItems,
-    RegisterMap,
-)
-from i7000.modbus.register_values import (
-    LogRecord,
-    readings,
-    words,
-)
-from i7000.modbus.registers import (
-    Access,
-    Area,
-    Kind,
-    Register,
-    WordOrder,
-)
-from i7000.modbus.request import (
-    BROADCAST,
-    ExceptionCode,
-    ExceptionResponse,
-    Message,
-    Request,
-    Response,
-    SettingResult,
-)
-from i7000.modbus.standard import (
-    Coils,
-    DiscreteInputs,
-    HoldingRegisters,
-    InputRegisters,
-    MultipleCoilsWritten,
-    MultipleRegistersWritten,
-    ReadCoils,
-    ReadDiscreteInputs,
-    ReadHoldingRegisters,
-    ReadInputRegisters,
-    SingleCoilWritten,
-    SingleRegisterWritten,
-    WriteMultipleCoils,
-    WriteMultipleRegisters,
-    WriteSingleCoil,
-    WriteSingleRegister,
-)
-from i7000.modbus.stream import (
-    Side,
-    drop_echo,
-    flush,
-    split,
-)
+from i7000.modbus.channel_settings import *
+from i7000.modbus.codec import *
+from i7000.modbus.cold_junction import *
+from i7000.modbus.frame import *
+from i7000.modbus.module_settings import *
+from i7000.modbus.register_map import *
+from i7000.modbus.register_values import *
+from i7000.modbus.registers import *
+from i7000.modbus.request import *
+from i7000.modbus.standard import *
+from i7000.modbus.stream import *
 
-__all__ = [
-    "BROADCAST",
-    "LONGEST_FRAME",
-    "REQUESTS",
-    "SHORTEST_FRAME",
-    "Access",
-    "Area",
-    "ChannelMask",
-    "ChannelMaskResult",
-    "CjcEnabled",
-    "CjcEnabledResult",
-    "CjcOffset",
-    "CjcOffsetResult",
-    "CjcUpdateResult",
-    "CjcUpdateSetting",
-    "Coils",
-    "CommunicationSettings",
-    "CommunicationSettingsResult",
-    "DiscreteInputs",
-    "ExceptionCode",
-    "ExceptionResponse",
-    "FirmwareVersion",
-    "HoldingRegisters",
-    "InputRegisters",
-    "Items",
-    "Kind",
-    "LogRecord",
-    "Message",
-    "MiscellaneousSettings",
-    "MiscellaneousSettingsResult",
-    "ModuleAddressResult",
-    "ModuleName",
-    "MultipleCoilsWritten",
-    "MultipleRegistersWritten",
-    "Plan",
-    "ReadChannelMask",
-    "ReadCjcEnabled",
-    "ReadCjcOffset",
-    "ReadCjcUpdate",
-    "ReadCoils",
-    "ReadCommunicationSettings",
-    "ReadDiscreteInputs",
-    "ReadFirmwareVersion",
-    "ReadHoldingRegisters",
-    "ReadInputRegisters",
-    "ReadItems",
-    "ReadMiscellaneousSettings",
-    "ReadModuleName",
-    "ReadTypeCode",
-    "Register",
-    "RegisterMap",
-    "Request",
-    "Response",
-    "SetChannelMask",
-    "SetCjcEnabled",
-    "SetCjcOffset",
-    "SetCjcUpdate",
-    "SetCommunicationSettings",
-    "SetMiscellaneousSettings",
-    "SetModuleAddress",
-    "SetTypeCode",
-    "SettingResult",
-    "Side",
-    "SingleCoilWritten",
-    "SingleRegisterWritten",
-    "TypeCodeResult",
-    "TypeCodeSetting",
-    "WordOrder",
-    "WriteMultipleCoils",
-    "WriteMultipleRegisters",
-    "WriteSingleCoil",
-    "WriteSingleRegister",
-    "channels_of",
-    "crc16",
-    "decode_request",
-    "decode_response",
-    "drop_echo",
-    "encode",
-    "flush",
-    "is_answered",
-    "mask_of",
-    "readings",
-    "seal",
-    "split",
-    "unseal",
-    "words",
-]
+__all__: list[str] = []
+__all__ += channel_settings.__all__
+__all__ += codec.__all__
+__all__ += cold_junction.__all__
+__all__ += frame.__all__
+__all__ += module_settings.__all__
+__all__ += register_map.__all__
+__all__ += register_values.__all__
+__all__ += registers.__all__
+__all__ += request.__all__
+__all__ += standard.__all__
+__all__ += stream.__all__

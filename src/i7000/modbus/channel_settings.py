@@ -5,6 +5,7 @@ Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; oth
 
 from typing import Annotated
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -66,6 +67,7 @@ class ReadTypeCode(Request[TypeCodeSetting]):
     pdu = "46 07 00 channel"
     section = "3.3.5"
     title = "type code"
+    availability = Availability.M_SERIES
 
     channel: layout.Byte
 
@@ -98,6 +100,7 @@ class SetTypeCode(Request[TypeCodeResult]):
     pdu = "46 08 00 channel type_code"
     section = "3.3.6"
     title = "type code"
+    availability = Availability.M_SERIES
 
     channel: layout.Byte
     type_code: layout.TypeCodeByte
@@ -142,6 +145,7 @@ class ReadChannelMask(Request[ChannelMask]):
     pdu = "46 25"
     section = "3.3.8"
     title = "channel mask"
+    availability = Availability.M_SERIES
 
 
 class ChannelMaskResult(SettingResult):
@@ -169,6 +173,7 @@ class SetChannelMask(Request[ChannelMaskResult]):
     pdu = "46 26 mask:mask"
     section = "3.3.9"
     title = "channel mask"
+    availability = Availability.M_SERIES
 
     mask: layout.Mask
 
@@ -229,6 +234,7 @@ class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
     pdu = "46 29"
     section = "3.3.10"
     title = "miscellaneous settings"
+    availability = Availability.M_SERIES
 
 
 class MiscellaneousSettingsResult(SettingResult):
@@ -256,6 +262,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
     pdu = "46 2A settings"
     section = "3.3.11"
     title = "miscellaneous settings"
+    availability = Availability.M_SERIES
 
     settings: _SettingsByte
 
@@ -266,3 +273,14 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
             raise EncodeError(
                 "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section
             )
+
+
+REQUESTS = (
+    ReadTypeCode,
+    SetTypeCode,
+    ReadChannelMask,
+    SetChannelMask,
+    ReadMiscellaneousSettings,
+    SetMiscellaneousSettings,
+)
+"""The requests of this module, by function and sub-function."""

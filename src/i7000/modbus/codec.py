@@ -10,30 +10,10 @@ from attrs import evolve
 
 from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.modbus.channel_settings import (
-    ReadChannelMask,
-    ReadMiscellaneousSettings,
-    ReadTypeCode,
-    SetChannelMask,
-    SetMiscellaneousSettings,
-    SetTypeCode,
-)
-from i7000.modbus.cold_junction import (
-    ReadCjcEnabled,
-    ReadCjcOffset,
-    ReadCjcUpdate,
-    SetCjcEnabled,
-    SetCjcOffset,
-    SetCjcUpdate,
-)
+from i7000.modbus import channel_settings, cold_junction, module_settings, standard
+from i7000.modbus.channel_settings import ReadChannelMask, ReadMiscellaneousSettings
+from i7000.modbus.cold_junction import ReadCjcOffset
 from i7000.modbus.frame import seal, unseal
-from i7000.modbus.module_settings import (
-    ReadCommunicationSettings,
-    ReadFirmwareVersion,
-    ReadModuleName,
-    SetCommunicationSettings,
-    SetModuleAddress,
-)
 from i7000.modbus.request import (
     BROADCAST,
     EXCEPTION_BIT,
@@ -50,41 +30,24 @@ from i7000.modbus.standard import (
     ReadHoldingRegisters,
     ReadInputRegisters,
     WriteMultipleCoils,
-    WriteMultipleRegisters,
     WriteSingleCoil,
-    WriteSingleRegister,
 )
-from i7000.models import AVAILABILITY
 from i7000.profile import Profile
 
-__all__ = ["REQUESTS", "decode_request", "decode_response", "encode", "is_answered"]
+__all__ = [
+    "REQUESTS",
+    "decode_request",
+    "decode_response",
+    "encode",
+    "is_answered",
+    "longest_response",
+    "pause_after",
+]
 
-REQUESTS: tuple[type[Request[Any]], ...] = (
-    ReadCoils,
-    ReadDiscreteInputs,
-    ReadHoldingRegisters,
-    ReadInputRegisters,
-    WriteSingleCoil,
-    WriteSingleRegister,
-    WriteMultipleCoils,
-    WriteMultipleRegisters,
-    ReadModuleName,  # 46h, 00
-    SetModuleAddress,
-    ReadCommunicationSettings,
-    SetCommunicationSettings,
-    ReadTypeCode,
-    SetTypeCode,
-    ReadFirmwareVersion,  # 20
-    ReadChannelMask,
-    SetChannelMask,
-    ReadMiscellaneousSettings,
-    SetMiscellaneousSettings,
-    ReadCjcOffset,
-    SetCjcOffset,
-    ReadCjcEnabled,
-    SetCjcEnabled,
-    ReadCjcUpdate,
-    SetCjcUpdate,  # 30
+_FAMILIES = (standard, module_settings, channel_settings, cold_junction)
+_FOUND: list[type[Request[Any]]] = [request for family in _FAMILIES for request in family.REQUESTS]
+REQUESTS: tuple[type[Request[Any]], ...] = tuple(
+    sorted(_FOUND, key=lambda request: (request.function, request.sub_function or 0))
 )
 """Every request, by function and sub-function."""
 
@@ -115,9 +78,9 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
         if profile.__class__ is not Profile:
             check_type("profile", profile, Profile)
         if not force:
-            if message.section in profile.refused:
+            if message.availability in profile.refused:
                 raise EncodeError(
-                    "model", profile.model.value, AVAILABILITY[message.section].scope, message.section,
+                    "model", profile.model.value, message.availability.scope, message.section,
                     f"{profile.name} has no {message.title} by Modbus",
                 )  # fmt: skip
             message.check(profile)
@@ -125,7 +88,7 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
 
 
 def is_answered(request: Request[Any]) -> bool:
-    """Tell whether a response is to be waited for: not if the request is for all modules."""
+    """Return whether a module answers: not if the request is for all of them."""
     if not isinstance(request, Request):
         check_type("request", request, Request)  # type: ignore[unreachable] # with types
     return request.address != BROADCAST
@@ -263,3 +226,54 @@ def _check_echo(request: Request[Any], body: bytes, frame: bytes) -> None:
     for at, (byte, expected) in enumerate(zip(body, said, strict=True)):
         if byte != expected:
             raise DecodeError(Fault.ECHO, frame, at, allowed=said.hex(" "), section=request.section)
+
+
+# --- what a driver has to plan for ------------------------------------------------------------------------------------
+
+_EXCEPTION = len("AFE")
+_CRC = len("CC")
+_BROADCAST_PAUSE = 0.002
+_FACTORY_CALIBRATION = 271
+"""The coil 00272."""
+_FACTORY_CALIBRATION_PAUSE = 3.0
+
+
+def longest_response(request: Request[Any], profile: Profile) -> int:
+    """Return the bytes of the longest answer to `request`, CRC included; 0 for a broadcast.
+
+    >>> from i7000 import Model
+    >>> longest_response(ReadInputRegisters(0x01, 0, 8), Profile(Model.M_7017))
+    21
+    """
+    check_type("profile", profile, Profile)
+    if not is_answered(request):
+        return 0
+    layout = request.response.layout
+    items: int = getattr(request, "count", 0)
+    tails = {"mask": profile.mask_digits // 2, "words": 2 * items, "bits": items + 7 >> 3}
+    return max(layout.fixed + tails.get(layout.tail, 0), _EXCEPTION) + _CRC
+
+
+def pause_after(request: Request[Any], profile: Profile) -> float:
+    """Return how many seconds to leave the module alone after `request`.
+
+    Time: 2 ms after broadcasts; 3 s after the calibration of the factory was loaded.
+    Manual: 3.4.8, 3.4.9; E103.
+
+    >>> from i7000 import Model
+    >>> pause_after(WriteSingleCoil(0x01, 271, value=True), Profile(Model.M_7019R))
+    3.0
+    """
+    check_type("profile", profile, Profile)
+    if _loads_factory_calibration(request):
+        return _FACTORY_CALIBRATION_PAUSE
+    return 0.0 if is_answered(request) else _BROADCAST_PAUSE
+
+
+def _loads_factory_calibration(request: Request[Any]) -> bool:
+    if isinstance(request, WriteSingleCoil):
+        return request.coil == _FACTORY_CALIBRATION and request.value
+    if isinstance(request, WriteMultipleCoils):
+        at = _FACTORY_CALIBRATION - request.start
+        return 0 <= at < len(request.values) and request.values[at]
+    return False

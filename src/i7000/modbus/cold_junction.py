@@ -9,6 +9,7 @@ from attrs import field
 
 from i7000 import message
 from i7000.arguments import check_type
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -108,6 +109,7 @@ class ReadCjcOffset(Request[CjcOffset]):
     pdu = "46 2B channel"
     section = "3.3.12"
     title = "CJC offset"
+    availability = Availability.M_7018_M_7019
 
     channel: _OffsetChannel
 
@@ -143,6 +145,7 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     pdu = "46 2C channel offset:2"
     section = "3.3.13"
     title = "CJC offset"
+    availability = Availability.M_7018_M_7019
 
     channel: _OffsetChannel
     offset: layout.SignedWord
@@ -190,6 +193,7 @@ class ReadCjcEnabled(Request[CjcEnabled]):
     pdu = "46 2D 00"
     section = "3.3.14"
     title = "CJC switch"
+    availability = Availability.M_7018_M_7019
 
 
 class CjcEnabledResult(SettingResult):
@@ -215,6 +219,7 @@ class SetCjcEnabled(Request[CjcEnabledResult]):
     pdu = "46 2E 00 enabled"
     section = "3.3.15"
     title = "CJC switch"
+    availability = Availability.M_7018_M_7019
 
     enabled: layout.Flag = field(kw_only=True)
 
@@ -244,6 +249,7 @@ class ReadCjcUpdate(Request[CjcUpdateSetting]):
     pdu = "46 2F"
     section = "3.3.16"
     title = "CJC update setting"
+    availability = Availability.M_7019
 
 
 class CjcUpdateResult(SettingResult):
@@ -269,5 +275,17 @@ class SetCjcUpdate(Request[CjcUpdateResult]):
     pdu = "46 30 update"
     section = "3.3.17"
     title = "CJC update setting"
+    availability = Availability.M_7019
 
     update: layout.UpdateByte
+
+
+REQUESTS = (
+    ReadCjcOffset,
+    SetCjcOffset,
+    ReadCjcEnabled,
+    SetCjcEnabled,
+    ReadCjcUpdate,
+    SetCjcUpdate,
+)
+"""The requests of this module, by function and sub-function."""

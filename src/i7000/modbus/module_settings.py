@@ -3,6 +3,7 @@
 Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
 """
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -55,6 +56,7 @@ class ReadModuleName(Request[ModuleName]):
     pdu = "46 00"
     section = "3.3.1"
     title = "module name"
+    availability = Availability.M_SERIES
 
 
 class ModuleAddressResult(SettingResult):
@@ -82,6 +84,7 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     pdu = "46 04 new_address 00 00 00"
     section = "3.3.2"
     title = "module address"
+    availability = Availability.M_SERIES
 
     new_address: layout.NewAddress
 
@@ -117,6 +120,7 @@ class ReadCommunicationSettings(Request[CommunicationSettings]):
     pdu = "46 05 00"
     section = "3.3.3"
     title = "communication settings"
+    availability = Availability.M_SERIES
 
 
 @frozen
@@ -147,6 +151,7 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
     pdu = "46 06 00 line_settings 00 00 00 protocol 00 00"
     section = "3.3.4"
     title = "communication settings"
+    availability = Availability.M_SERIES
 
     line_settings: layout.LineByte
     protocol: layout.ProtocolByte
@@ -188,3 +193,14 @@ class ReadFirmwareVersion(Request[FirmwareVersion]):
     pdu = "46 20"
     section = "3.3.7"
     title = "firmware version"
+    availability = Availability.M_SERIES
+
+
+REQUESTS = (
+    ReadModuleName,
+    SetModuleAddress,
+    ReadCommunicationSettings,
+    SetCommunicationSettings,
+    ReadFirmwareVersion,
+)
+"""The requests of this module, by function and sub-function."""

@@ -12,13 +12,14 @@ from typing import Any
 from attrs import evolve, field
 
 from i7000 import describe
+from i7000.availability import Availability
 from i7000.frozen import frozen
-from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates, series
+from i7000.models import CONFIGURABLE, Firmware, Gates, Model, gates_of, series
 from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
 from i7000.settings import CjcUpdate, Filter, LineSettings, LogCommand, ModbusDataFormat, Protocol, is_int
 from i7000.type_codes import TypeCode
 
-__all__ = ["Access", "Area", "Kind", "Register", "WordOrder", "rows"]
+__all__ = ["Access", "Area", "Kind", "Register", "WordOrder"]
 
 
 class Area(Enum):
@@ -128,7 +129,7 @@ class Register:
         return f"{self.words(value)} {self.unit}" if self.unit else self.words(value)
 
 
-OPEN_WIRE: Gates = gates(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
+OPEN_WIRE: Gates = gates_of(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
 """Open wire detection by Modbus; M-7018R has it from an older firmware on by DCON (E68)."""
 _LAST_TYPE_CODE = 0x1C
 _RECORDS = 6
@@ -144,7 +145,7 @@ def rows(profile: Profile) -> tuple[Register, ...]:
     if Protocol.MODBUS_RTU not in profile.model.protocols:
         return ()
     found = list(_inputs(profile))
-    if "3.4" not in profile.refused:
+    if Availability.ADDRESS_MAP not in profile.refused:
         found += [*map(_alias, found), *_channels(profile), *_module(profile), *_coils(profile)]
         if profile.model is Model.M_7017mC_16:
             found += _logger()
@@ -165,7 +166,7 @@ def _printed_channels(profile: Profile) -> int:
 def _inputs(profile: Profile) -> Iterator[Register]:
     model, words = profile.model, Area.INPUT_REGISTER
     read = partial(Register, access=Access.READ)
-    if "3.1" not in profile.refused:
+    if Availability.RANGE_STATUS not in profile.refused:
         yield read("range_status", Area.DISCRETE_INPUT, 128, model.channels, kind=Kind.BOOL, minimum=0, maximum=1)
     yield read("analog_input", words, 0, _printed_channels(profile), kind=Kind.READING)
     if model is Model.M_7018_16:

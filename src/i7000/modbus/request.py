@@ -72,7 +72,7 @@ class Request(Message, Generic[R]):
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
-        cls.response = message.type_of_answer(cls)
+        cls.response = message.answer_of(cls)
         function, *rest = cls.pdu.split(" ")
         cls.function = int(function, 16)
         cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None

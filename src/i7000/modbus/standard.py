@@ -3,6 +3,7 @@
 Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kind before: 40489 is holding register 488.
 """
 
+from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import layout
@@ -60,6 +61,7 @@ class ReadCoils(Request[Coils]):
     pdu = "01 start:2 count:2"
     section = "3.4"
     title = "coils"
+    availability = Availability.ADDRESS_MAP
 
     start: layout.Word
     count: layout.BitCount
@@ -93,6 +95,7 @@ class ReadDiscreteInputs(Request[DiscreteInputs]):
     pdu = "02 start:2 count:2"
     section = "3.1"
     title = "discrete inputs"
+    availability = Availability.RANGE_STATUS
 
     start: layout.Word
     count: layout.BitCount
@@ -126,6 +129,7 @@ class ReadHoldingRegisters(Request[HoldingRegisters]):
     pdu = "03 start:2 count:2"
     section = "3.4"
     title = "holding registers"
+    availability = Availability.ADDRESS_MAP
 
     start: layout.Word
     count: layout.WordCount
@@ -159,6 +163,7 @@ class ReadInputRegisters(Request[InputRegisters]):
     pdu = "04 start:2 count:2"
     section = "3.2"
     title = "input registers"
+    availability = Availability.M_SERIES
 
     start: layout.Word
     count: layout.WordCount
@@ -192,6 +197,7 @@ class WriteSingleCoil(Request[SingleCoilWritten]):
     pdu = "05 coil:2 value:2"
     section = "3.4"
     title = "coil"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
     coil: layout.Word
@@ -225,6 +231,7 @@ class WriteSingleRegister(Request[SingleRegisterWritten]):
     pdu = "06 register:2 value:2"
     section = "3.4"
     title = "holding register"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
     register: layout.Word
@@ -260,6 +267,7 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
     pdu = "0F start:2 count:2 bytes values:bits"
     section = "3.4"
     title = "coils"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
     start: layout.Word
@@ -295,6 +303,7 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
     pdu = "10 start:2 count:2 bytes values:words"
     section = "3.4"
     title = "holding registers"
+    availability = Availability.ADDRESS_MAP
     broadcast = True
 
     start: layout.Word
@@ -306,3 +315,16 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
         if profile.model.series == "7019" and count > _MOST_WRITTEN_TO_7019:
             allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write: {profile.model.value}"
             raise EncodeError("count", count, allowed, self.section)
+
+
+REQUESTS = (
+    ReadCoils,
+    ReadDiscreteInputs,
+    ReadHoldingRegisters,
+    ReadInputRegisters,
+    WriteSingleCoil,
+    WriteSingleRegister,
+    WriteMultipleCoils,
+    WriteMultipleRegisters,
+)
+"""The requests of this module, by function and sub-function."""

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from i7000 import BaudRate, ModbusDataFormat, Model, Protocol, Unit, dcon, modbus
+from i7000.availability import Availability
 from i7000.device import (
     Bus,
     Ear,
@@ -111,7 +112,7 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
         channel_cjc_offsets=draw(st.tuples(*[st.integers(*CJC_OFFSETS)] * inputs)),
         open_wire_detection=draw(st.booleans()),
         address=draw(addresses() if made.model.value[0] == "I" else st.integers(1, 247)),
-        single_ended=draw(st.booleans()) and "2.43" not in profile.refused,
+        single_ended=draw(st.booleans()) and Availability.SERIES_7017Z not in profile.refused,
         modbus_data_format=draw(modbus_format) if made.model.value[0] == "M" else made.modbus_data_format,
         cjc_offset=draw(st.integers(*CJC_OFFSETS)),
         cjc_enabled=draw(st.booleans()),

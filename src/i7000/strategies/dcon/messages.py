@@ -33,7 +33,6 @@ from i7000.dcon import (
 from i7000.dcon.identity import LONGEST_TIMEOUT
 from i7000.dcon.layout import Part
 from i7000.fields import FIELD_WIDTHS
-from i7000.models import AVAILABILITY
 from i7000.names import CHARACTERS, is_name
 from i7000.profile import CJC_OFFSETS
 from i7000.readings import encode_field
@@ -75,7 +74,7 @@ def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = No
 
 def commands(profile: Profile, *kinds: type[AnyCommand]) -> SearchStrategy[AnyCommand]:
     """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`, of all `kinds` that the module has."""
-    kinds = tuple(kind for kind in kinds or _COMMANDS if kind.section not in profile.refused)
+    kinds = tuple(kind for kind in kinds or _COMMANDS if kind.availability not in profile.refused)
     return _any_of(kinds, profile, accepted=True)
 
 
@@ -86,9 +85,8 @@ def any_commands(profile: Profile) -> SearchStrategy[AnyCommand]:
 
 def profiles_with(kind: type[AnyCommand]) -> SearchStrategy[Profile]:
     """Make profiles of modules that have a command."""
-    every = AVAILABILITY.get(kind.section)
-    models = [model for model in Model if every is None or model in every.gates]
-    return profiles(*models).filter(lambda profile: kind.section not in profile.refused)
+    models = [model for model in Model if model in kind.availability.gates]
+    return profiles(*models).filter(lambda profile: kind.availability not in profile.refused)
 
 
 @st.composite
@@ -248,7 +246,8 @@ class Exchange:
 def exchanges(draw: st.DrawFn, *kinds: type[Command[Any]], profile: Profile | None = None) -> Exchange:
     """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the command."""
     asked = [kind for kind in kinds or _COMMANDS if issubclass(kind, Command)]
-    kind = draw(st.sampled_from([kind for kind in asked if profile is None or kind.section not in profile.refused]))
+    had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
+    kind = draw(st.sampled_from(had))
     profile = profile or draw(profiles_with(kind))
     command = cast("Command[Any]", draw(commands(profile, kind)))
     response: Response = draw(responses(command, profile))

@@ -34,7 +34,6 @@ from i7000.modbus import (
     layout,
 )
 from i7000.modbus.cold_junction import FIRST_CHANNEL
-from i7000.models import AVAILABILITY
 from i7000.profile import CJC_OFFSETS
 from i7000.strategies import vocabulary
 from i7000.strategies.vocabulary import line_settings, supported_types
@@ -71,8 +70,8 @@ def profiles(*, known_types: bool = False) -> SearchStrategy[Profile]:
 
 def profiles_with(kind: type[Request[Any]]) -> SearchStrategy[Profile]:
     """Make profiles of modules that have a request."""
-    models = [model for model in _MODELS if model in AVAILABILITY[kind.section].gates]
-    return vocabulary.profiles(*models).filter(lambda profile: kind.section not in profile.refused)
+    models = [model for model in _MODELS if model in kind.availability.gates]
+    return vocabulary.profiles(*models).filter(lambda profile: kind.availability not in profile.refused)
 
 
 # --- messages ---------------------------------------------------------------------------------------------------------
@@ -90,7 +89,8 @@ def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = No
 
 def requests(profile: Profile, *kinds: type[Request[Any]]) -> SearchStrategy[Request[Any]]:
     """Make requests that `i7000.modbus.encode` takes for `profile`, of all `kinds` that the module has."""
-    return _any_of([kind for kind in kinds or _REQUESTS if kind.section not in profile.refused], profile, accepted=True)
+    had = [kind for kind in kinds or _REQUESTS if kind.availability not in profile.refused]
+    return _any_of(had, profile, accepted=True)
 
 
 def any_requests(profile: Profile) -> SearchStrategy[Request[Any]]:
@@ -260,7 +260,8 @@ class Exchange:
 def exchanges(draw: st.DrawFn, *kinds: type[Request[Any]], profile: Profile | None = None) -> Exchange:
     """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the request."""
     asked = kinds or _REQUESTS
-    kind = draw(st.sampled_from([kind for kind in asked if profile is None or kind.section not in profile.refused]))
+    had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
+    kind = draw(st.sampled_from(had))
     profile = profile or draw(profiles_with(kind))
     request = draw(requests(profile, kind).filter(is_answered))
     response: Response = draw(responses(request, profile))
