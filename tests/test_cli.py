@@ -9,7 +9,7 @@ import pytest
 
 from i7000 import dcon
 from i7000.cli import main
-from i7000.cli.message import encode, make
+from i7000.cli.message import DCON, encode, find, make
 from i7000.dissect.meaning import errata
 from i7000_cli import CLOSED
 from tests.spec.lint import Record, rows
@@ -26,8 +26,10 @@ def assignments(fields: Record) -> tuple[str, ...]:
     """The fields of a vector as a person writes them."""
 
     def written(name: str, value: Any) -> str:
-        if name in ("type_code", "line_settings", "report_settings"):
+        if name == "type_code":
             return f"{value:02X}"
+        if name in ("line_settings", "report_settings", "offset", "timeout"):
+            return f"{value:#x}"
         return ",".join(value) if name == "values" else str(value)
 
     return tuple(f"{name}={written(name, value)}" for name, value in fields.items())
@@ -35,7 +37,7 @@ def assignments(fields: Record) -> tuple[str, ...]:
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
 def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
-    message = make(vector["command"]["type"], assignments(vector["command"]["fields"]))
+    message = make(find(vector["command"]["type"], DCON), assignments(vector["command"]["fields"]))
 
     assert message_of(vector["command"]) == message
     if "decode-only" not in vector["flags"]:
@@ -45,7 +47,9 @@ def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
 def test_a_response_is_made_of_its_fields(vector: Record) -> None:
-    assert message_of(vector["response"]) == make(vector["response"]["type"], assignments(vector["response"]["fields"]))
+    message = make(find(vector["response"]["type"], DCON), assignments(vector["response"]["fields"]))
+
+    assert message_of(vector["response"]) == message
 
 
 SET = "SetConfiguration address=1 new_address=1 type_code=J"
@@ -67,7 +71,7 @@ SET = "SetConfiguration address=1 new_address=1 type_code=J"
         (f"{SET} baud_rate=9600 data_format=hex --model I-7018", "%01010E0602"),
         (f"{SET} baud_rate=0x0A character_format=e81 checksum=yes fast_mode=off filter=reject_50_hz reserved=0",
          "%01010E8AC0"),
-        (f"{SET} line_settings=86 baud_rate=1200 report_settings=C0 data_format=percent --model I-7018",
+        (f"{SET} line_settings=86h baud_rate=1200 report_settings=0xC0 data_format=percent --model I-7018",
          "%01010E83C1"),
         (f"{SET} baud_rate=2 data_format=hex --model I-7018 --force", "%01010E0202"),
         (f"{SET[:-1]}mixed line_settings=06 report_settings=00 --model I-7019R", "%0101FF0600"),
@@ -99,7 +103,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
     ("arguments", "message"),
     [
         ("ReadAnalogInput address=1 channel=12 --model I-7018", "channel cannot be 12: 0..7: I-7018, manual 2.4"),
-        ("ReadAnalogInput address=1 channel=17", "no model takes it; the first says: channel cannot be 17: "),
+        ("ReadAnalogInput address=1 channel=17", "no model takes it: channel cannot be 17: "),
         ("ReadAnalogInput address=300 channel=1", "address cannot be 300: 00..FF, manual 2.4"),
         ("ReadCjcUpdate address=1 --model I-7018", "I-7018 has no CJC update setting: 7019 series only, manual 2.20"),
         ("SetChannelMask address=1 channels=25 --model I-7018", "channel cannot be 25: 0..19, manual 2.13"),
@@ -119,23 +123,23 @@ def test_a_frame_that_a_module_refuses_is_not_written(run: Run, arguments: str, 
         ("-- -", "there is no '-'"),
         ("ReadConf address=1", "did you mean ReadConfiguration?"),
         ("ReadConfigurtion address=1", "did you mean ReadConfiguration"),
-        ("ReadConfiguration", "ReadConfiguration needs address=... (00..FF)\n"),
-        ("SetConfiguration address=1", "new_address=... (00..FF), type_code=... "),
+        ("ReadConfiguration", "ReadConfiguration needs address=... (0..255 or 00h..FFh)\n"),
+        ("SetConfiguration address=1", "new_address=... (0..255 or 00h..FFh), type_code=... "),
         ("ReadConfiguration 1", "'1' is not field=value"),
         ("ReadConfiguration address=1 address=2", "address is given twice"),
         ("ReadConfiguration address=1 adress=2", "ReadConfiguration has no adress: address; did you mean address?"),
         ("ReadConfiguration address=1 fast_mode=1", "ReadConfiguration has no fast_mode: address\n"),
-        ("ReadConfiguration address=1F", "address: '1F' is no number: decimal, or hex as 0x3A"),
-        ("ReadConfiguration address=", "address: '' is no number"),
+        ("ReadConfiguration address=1F", "address: '1F' has hex digits: write 0x1F or 1Fh"),
+        ("ReadConfiguration address=", "address: '' is not a number"),
         ("SetChannelMask address=1 mask=1 channels=1 --model I-7018", "mask and channels are the same"),
-        ("SetChannelMask address=1 channels=a --model I-7018", "channels: 'a' is no number"),
+        ("SetChannelMask address=1 channels=x --model I-7018", "channels: 'x' is not a number"),
         ("SetChannelMask address=1 channels=1,3,4,5", "give --model: $0153A for all but I-7017Z, "),
         ("SetChannelTypeCode address=1 channel=2 type_code=KK", "type_code: 'KK' is no type: "),
         ("SetCjcUpdate address=1 update=never", "update: 'never' is none of stopped, started, once, 0, 1, 2"),
         ("SetCjcEnabled address=1 enabled=maybe", "enabled: 'maybe' is neither true nor false: true, yes, "),
-        (f"{SET} line_settings=106", "line_settings: '106' is no byte"),
+        (f"{SET} line_settings=106h", "line_settings: '106h' is not a byte: 00h..FFh"),
         (f"{SET} baud_rate=9601", "baud_rate: 9601 baud is none of 1200, 2400, "),
-        ("CjcTemperature temperature=warm", "temperature: 'warm' is no number"),
+        ("CjcTemperature temperature=warm", "temperature: 'warm' is not a number"),
         ("", "requires an argument"),
     ],
 )

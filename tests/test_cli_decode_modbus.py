@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import ModbusDataFormat, Model, Protocol, TypeCode, modbus
-from i7000.cli.message import MODBUS, encode, make
+from i7000.cli.message import MODBUS, encode, find, make
 from i7000.dissect import Known
 from i7000.modbus import seal
 from tests.spec.lint import Record, rows
@@ -455,8 +455,10 @@ def assignments(fields: Record) -> tuple[str, ...]:
     """The fields of a vector as a person writes them."""
 
     def written(name: str, value: Any) -> str:
-        if name in ("type_code", "line_settings"):
+        if name == "type_code":
             return f"{value:02X}"
+        if name in ("line_settings", "offset"):
+            return f"{value:#x}"
         return ",".join(map(str, value)) if isinstance(value, list) else str(value)
 
     return tuple(f"{name}={written(name, value)}" for name, value in fields.items())
@@ -464,7 +466,7 @@ def assignments(fields: Record) -> tuple[str, ...]:
 
 @pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception", "silence"))
 def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
-    message = make(vector["request"]["type"], assignments(vector["request"]["fields"]), MODBUS)
+    message = make(find(vector["request"]["type"], MODBUS), assignments(vector["request"]["fields"]))
 
     assert modbus_message_of(vector["request"]) == message
     force = bool({"host-refuses", "host-may-refuse"} & set(vector["flags"]))
@@ -473,7 +475,7 @@ def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
 
 @pytest.mark.parametrize("vector", modbus_vectors("response", "exception"))
 def test_a_response_is_made_of_its_fields(vector: Record) -> None:
-    message = make(vector["response"]["type"], assignments(vector["response"]["fields"]), MODBUS)
+    message = make(find(vector["response"]["type"], MODBUS), assignments(vector["response"]["fields"]))
 
     assert modbus_message_of(vector["response"]) == message
 
@@ -483,7 +485,7 @@ def test_a_response_is_made_of_its_fields(vector: Record) -> None:
     [
         ("ReadInputRegisters address=1 start=0 count=8", ASK),
         ("ReadModuleName address=1", "01 46 00 12 60"),
-        ("WriteMultipleRegisters address=1 start=488 values=100,0x1F --model M-7019R",
+        ("WriteMultipleRegisters address=1 start=488 values=10,0x1F --model M-7019R",
          seal(bytes.fromhex("011001E8000204 0064001F")).hex(" ").upper()),
         ("WriteMultipleCoils address=1 start=0 values=true,off,1",
          seal(bytes.fromhex("010F0000000301 05")).hex(" ").upper()),
@@ -516,7 +518,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
         ("ReadConfigurations address=1", 2, "there is no 'ReadConfigurations'; did you mean "),
         ("ReadCoils address=1", 2, "ReadCoils needs start=... (0..65535), count=... (1..2000)"),
         ("SetChannelMask address=1 channels=1", 2, "give --model: 01 46 26 02 7B AC for M-7017, M-7017C, "),
-        ("ModuleName address=1 name=7019Z", 2, "name: '7019Z' is no bytes in hex"),
+        ("ModuleName address=1 name=7019Z", 2, "name: '7019Z' is not bytes in hex"),
         ("ReadModuleName address=1 --model I-7018", 2, "I-7018 has no Modbus: M-7000 series only"),
         ("ReadModuleName address=1 --single-ended --type K", 2, "single_ended cannot be True"),
         ("ReadModuleName address=1 --checksum", 2, "--format and --checksum are of DCON"),

@@ -81,6 +81,11 @@ def test_the_examples_at_the_terminal_tell_what_they_say(run: Run, arguments: st
     assert result.code == 0
 
 
+@pytest.mark.parametrize("arguments", re.findall(r"`i7000 ((?:commands|registers|errata|encode) [^-`][^`]*)`", README))
+def test_what_the_terminal_explains_and_writes_is_there(run: Run, arguments: str) -> None:
+    assert run(*shlex.split(arguments)).code == 0
+
+
 def test_the_modules_of_the_simulated_bus_speak_one_protocol() -> None:
     (example,) = re.findall(r"^i7000 simulate (.*)$", README, re.MULTILINE)
     arguments = shlex.split(example)

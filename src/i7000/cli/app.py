@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError
 from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.encode import encode
+from i7000.cli.errata import errata
 from i7000.cli.register_list import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -27,7 +28,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, simulate):
+for _command in (decode, encode, commands, registers, errata, simulate):
     app.command(_command)
 
 

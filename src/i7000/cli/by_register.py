@@ -6,7 +6,6 @@ numbers (40489) are refused, since frames have addresses (488), and the address 
 
 import re
 from collections.abc import Mapping
-from enum import Enum
 from typing import Any
 
 from i7000 import EncodeError, LineSettings, TypeCode, modbus
@@ -18,9 +17,9 @@ from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
 
-__all__ = ["held", "is_of_registers"]
+__all__ = ["AREAS", "held", "is_of_registers", "is_reading"]
 
-_AREAS: Mapping[type[Message], Area] = {
+AREAS: Mapping[type[Any], Area] = {
     modbus.ReadCoils: Area.COIL,
     modbus.ReadDiscreteInputs: Area.DISCRETE_INPUT,
     modbus.ReadHoldingRegisters: Area.HOLDING_REGISTER,
@@ -40,7 +39,12 @@ _PLACES = ("start", "coil", "register")
 
 def is_of_registers(kind: type[Message]) -> bool:
     """Return whether a message is a request of coils, inputs or registers by address."""
-    return kind in _AREAS
+    return kind in AREAS
+
+
+def is_reading(kind: type[Message]) -> bool:
+    """Return whether such a request reads; else it writes."""
+    return "count" in parts_of(kind)
 
 
 def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
@@ -60,7 +64,7 @@ def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | No
         return {}
     row = None if _is_number(text) else _find(kind, field, text, registers)
     found: dict[str, Any] = {field: integer(text) if row is None else row.address}
-    if row and "count" in parts_of(kind) and "count" not in given:
+    if row and is_reading(kind) and "count" not in given:
         found["count"] = registers.read(1, row.name).count
     if force:
         return found
@@ -89,7 +93,7 @@ def _words(area: Area) -> str:
 
 def _find(kind: type[Message], field: str, name: str, registers: RegisterMap) -> Register:
     """Find a row by name."""
-    area = _AREAS[kind]
+    area = AREAS[kind]
     others = [row for row in registers if row.name == name]
     found = next((row for row in others if row.area is area), None)
     model = registers.profile.model.value
@@ -110,8 +114,8 @@ def _manual(kind: type[Message], field: str, text: str, registers: RegisterMap) 
     area, address = Area(int(text[0])), int(text[1:]) - 1
     row = _at(registers, area, address)
     what = f"{text} is the manual's number" + (f" of {row.name}" if row else "")
-    if area is not _AREAS[kind]:
-        return f"{what}, {_article(area)} with the address {address}; {kind.__name__} is about {_words(_AREAS[kind])}s"
+    if area is not AREAS[kind]:
+        return f"{what}, {_article(area)} with the address {address}; {kind.__name__} is about {_words(AREAS[kind])}s"
     return f"{what}, frames have its address: {field}={address}" + (
         f" or {field}={row.name}" if row and row.address == address and (row.count == 1 or field == "start") else ""
     )
@@ -127,13 +131,13 @@ def _row(kind: type[Message], address: int, registers: RegisterMap) -> Register:
 
     Errors: `EncodeError` if the map has none, or none that can be read or written so.
     """
-    area, model = _AREAS[kind], registers.profile.model.value
+    area, model = AREAS[kind], registers.profile.model.value
     row = _at(registers, area, address)
     if row is None:
         number = Register("", area, address).number
         reason = f"{model} has no {_words(area)} at address {address}, {number} in the manual"
         raise EncodeError("address", address, f"i7000 registers --model {model} lists what it has", "", reason)
-    reads = "count" in parts_of(kind)
+    reads = is_reading(kind)
     if row.access is (Access.WRITE if reads else Access.READ):
         allowed = f"it can only be {'written' if reads else 'read'}"
         raise EncodeError("address", address, allowed, "", f"{row.name} cannot be {'read' if reads else 'written'}")
@@ -160,27 +164,29 @@ def _items(kind: type[Message], address: int, text: str, registers: RegisterMap)
     row = _row(kind, address, registers)
     number = Register("", row.area, address).number
     try:
-        value = _value(row, number, text, registers)
+        value = _value(row, text)
     except UsageError as error:
         raise UsageError(f"{row.name}: {error}") from None
     try:
         request: Any = registers.write(1, number, value)
     except EncodeError as refusal:
-        raise EncodeError(row.name, text, refusal.allowed, refusal.section, f"{row.name} cannot be {text}") from None
+        reason = f"{row.name} cannot be {text}"
+        raise EncodeError(row.name, text, refusal.allowed, refusal.section, reason) from None
     return request.values if isinstance(request, modbus.WriteMultipleRegisters) else (request.value,)
 
 
-def _value(row: Register, number: str, text: str, registers: RegisterMap) -> Any:  # noqa: ANN401
-    """Read a value: of the kind that the map decodes there."""
-    example = registers.decode(number, (max(row.minimum or 0, 0),) * row.kind.width)
-    if isinstance(example, TypeCode):
+def _value(row: Register, text: str) -> Any:  # noqa: ANN401
+    """Read a value of a row, as the row describes it."""
+    if text in row.labels:
+        return row.labels.index(text)
+    if row.values is TypeCode:
         return type_code(text)
-    if isinstance(example, LineSettings):
-        return hex_byte(text)
-    if isinstance(example, bool):
+    if row.values is LineSettings:
+        return LineSettings.from_byte(hex_byte(text))
+    if row.values:
+        return member(text, row.values)
+    if row.kind is Kind.BOOL:
         return truth(text)
-    if isinstance(example, Enum):
-        return member(text, type(example))
     scale = Scale(row.unit or "", round(1 / (row.scale or 1)))
     read = counts(text, scale)
     if is_hex(text) and row.kind in (Kind.INT8, Kind.INT16):

@@ -1,43 +1,76 @@
 """``i7000 commands``: what a model can do."""
 
-from collections.abc import Iterable
-from typing import Annotated, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from i7000 import Model, Profile, dcon, modbus
-from i7000.cli.options import Json, Module, ProtocolName
+from i7000.cli.explain import AnyCommand, command_explained, commands_named
+from i7000.cli.explain_text import command_text
+from i7000.cli.options import Json, Module
 from i7000.cli.records import Record, command_record
 from i7000.cli.text import Line, Printer, command_lines, request_lines
+from i7000.cli.words import UsageError
 
 __all__ = ["commands"]
 
+_MOST_EXPLAINED = 4
+"""If a NAME means more commands, they are listed."""
+
+_KINDS: Mapping[str, Sequence[AnyCommand]] = {
+    "auto": (*dcon.COMMANDS, *modbus.REQUESTS),
+    "dcon": dcon.COMMANDS,
+    "rtu": modbus.REQUESTS,
+}
+
 
 def commands(
+    name: Annotated[str | None, Parameter(help="A name, syntax, function or section to explain in full.")] = None,
+    /,
     *,
     model: Annotated[str | None, Parameter(help="The model.")] = None,
     firmware: Annotated[str | None, Parameter(help="Its firmware; the newest if it is not given.")] = None,
-    protocol: ProtocolName = "dcon",
+    protocol: Annotated[
+        Literal["auto", "dcon", "rtu"],
+        Parameter(help="DCON, Modbus RTU, or both for a NAME; without a NAME auto is DCON."),
+    ] = "auto",
     json: Json = False,
 ) -> int:
-    """List what a model can do, or all that any can, and who can.
+    """List what a model can do, or all that any can, and who can; or explain one command in full.
 
-    Columns: section of the manual, command, response, name, what it is about, models; by Modbus the PDU of the request,
-    which begins with function and sub-function, and no response.
+    A NAME is that of a command or of its response in any spelling, a syntax (`'$AA2'`, quoted), a section (`2.10`), or
+    by Modbus a function and sub-function (`03`, `"46 2A"`). If it means many commands, they are listed.
+
+    Columns of the list: section of the manual, command, response, name, what it is about, models; by Modbus the PDU of
+    the request, which begins with function and sub-function, and no response.
+
+    Examples: `i7000 commands --model M-7019R`, `i7000 commands SetCjcOffset`, `i7000 commands "46 2A"`
 
     JSON keys: `section`, `name`, `title`, `syntax`, `fields` (and their values), `response`, `response_syntax`,
-    `models` (and the firmware from which on, or null), `errata`.
+    `models` (and the firmware from which on, or null), `errata`. One that is explained also has `protocol`,
+    `description`, `parameters` and `response_parameters` (`name`, `notation`, `allowed`, `values` (of bytes of
+    settings), `minimum`, `maximum`, `unit`, `scale`, `meaning`), `pause` (as in spec), `broadcast`, `exceptions`,
+    `examples` and `refused` (vectors of spec), `errata_explained`.
     """
     known = Module(model=model, firmware=firmware).known()
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
+    kinds = _KINDS[protocol] if name or protocol != "auto" else dcon.COMMANDS
+    chosen = commands_named(name, kinds) if name else kinds
+    having = {kind: [it.model.value for it in profiles if kind.availability not in it.refused] for kind in chosen}
+    if not any(having.values()):
+        raise UsageError(f"{model} has no {' or '.join(sorted({kind.__name__ for kind in chosen}))}")
+    shown: set[str] = set()
     printer = Printer(json=json)
-    for command in modbus.REQUESTS if protocol == "rtu" else dcon.COMMANDS:
-        having = [profile.model.value for profile in profiles if command.availability not in profile.refused]
-        if having:
-            printer.record(*_listed(command, having))
+    for kind, models in having.items():
+        if name and models and len(chosen) <= _MOST_EXPLAINED:
+            record = command_explained(kind, models)
+            printer.record(record, command_text(record, shown))
+        elif models:
+            printer.record(*_listed(kind, models))
     return 0
 
 
-def _listed(command: type[dcon.AnyCommand | modbus.Request[Any]], models: list[str]) -> tuple[Record, Iterable[Line]]:
+def _listed(command: AnyCommand, models: list[str]) -> tuple[Record, Iterable[Line]]:
     record = command_record(command, models)
     return record, request_lines(record) if issubclass(command, modbus.Request) else command_lines(record)

@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from i7000 import EncodeError
-from i7000.cli.message import MODBUS, frame_text, make, refusal_words, registers
+from i7000.cli.message import DCON, MODBUS, find, frame_text, make, refusal_words, registers
 from i7000.cli.message import encode as encode_message
 from i7000.cli.options import UNKNOWN, Json, Module, ProtocolName
 from i7000.cli.text import Line, Printer
@@ -46,12 +46,14 @@ def encode(
     JSON keys: `name`, `section`, `frame`, `wire` (hex).
     """
     known = module.known(protocol)
+    kinds = MODBUS if protocol == "rtu" else DCON
+    kind = find(name, kinds)
     printer = Printer(json=json)
     try:
-        message = make(name, fields, MODBUS, registers(known), force=force) if protocol == "rtu" else make(name, fields)
+        message = make(kind, fields, registers(known) if protocol == "rtu" else None, force=force)
         frame = encode_message(message, known, force=force)
     except EncodeError as refusal:
-        words = refusal_words(refusal, name, fields)
+        words = refusal_words(refusal, kind, fields)
         printer.error(words if known.model or refusal.reason else f"no model takes it: {words}")
         return 1
     text = frame_text(message, frame)

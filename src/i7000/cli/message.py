@@ -22,7 +22,7 @@ from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
 
-__all__ = ["DCON", "MODBUS", "encode", "frame_text", "make", "refusal_words", "registers"]
+__all__ = ["DCON", "MODBUS", "encode", "find", "frame_text", "make", "refusal_words", "registers"]
 
 DCON: tuple[type[Message], ...] = (
     *dcon.COMMANDS,
@@ -66,8 +66,7 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
         except EncodeError as refusal:
             refusals.append((profile, refusal))
     if not frames:
-        kind: Any = type(message)
-        having = (refusal for profile, refusal in refusals if kind.availability not in profile.refused)
+        having = (refusal for profile, refusal in refusals if message.availability not in profile.refused)
         raise next(having, refusals[0][1])
     first, *others = frames
     if others:
@@ -85,18 +84,18 @@ def _encoded(message: Message, profile: Profile, *, force: bool) -> bytes:
     return dcon.encode(message, profile, force=force)  # type: ignore[arg-type] # it is one of the two
 
 
-def refusal_words(refusal: EncodeError, name: str, assignments: Sequence[str]) -> str:
+def refusal_words(refusal: EncodeError, kind: type[Message], assignments: Sequence[str]) -> str:
     """Return why a message is refused, with the value as it was written.
 
-    >>> offset = EncodeError("timeout", 300, "00..FF", "2.39")
-    >>> refusal_words(offset, "SetHostWatchdogTimeout", ["address=1", "timeout=30s"])
+    >>> refusal = EncodeError("timeout", 300, "00..FF", "2.39")
+    >>> refusal_words(refusal, dcon.SetHostWatchdogTimeout, ["address=1", "timeout=30s"])
     'timeout cannot be 30s: 00..FF, counts of 0.1 s, manual 2.39'
     """
     written = dict(assignment.split("=", 1) for assignment in assignments)
     field, allowed = refusal.field, refusal.allowed
     if refusal.reason or field not in written:
         return str(refusal)
-    scale = scale_of(_find(name, (*DCON, *MODBUS)), field, 0)
+    scale = scale_of(kind, field, channel=written.get("channel", "0") != "0")
     if scale and "counts" not in allowed:
         allowed += f", counts of {1 / scale.per_unit:g} {scale.unit}"
     return str(EncodeError(field, refusal.value, allowed, refusal.section, f"{field} cannot be {written[field]}"))
@@ -108,9 +107,8 @@ def frame_text(message: Message, frame: bytes) -> str:
 
 
 def make(
-    name: str,
-    assignments: tuple[str, ...],
-    kinds: Sequence[type[Message]] = DCON,
+    kind: type[Message],
+    assignments: Sequence[str],
     registers: modbus.RegisterMap | None = None,
     *,
     force: bool = False,
@@ -119,10 +117,9 @@ def make(
 
     Errors: `UsageError` for what cannot be understood, `EncodeError` for a value that no such message has.
 
-    >>> make("set-channel-mask", ("address=1", "channels=1,3,4,5"))
+    >>> make(dcon.SetChannelMask, ("address=1", "channels=1,3,4,5"))
     SetChannelMask(address=0x01, mask=0x3A)
     """
-    kind = _find(name, kinds)
     given = _given(kind, assignments)
     values = held(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
@@ -131,14 +128,32 @@ def make(
         if part and not given.keys().isdisjoint((field, *part)):
             values[field] = _assemble(field, part, given)
         elif field in given:
-            scale = scale_of(kind, field, values.get("channel", 0))
-            read = _reader(attribute.type) if scale is None else partial(counts, scale=scale)
-            values[field] = _named(field, given.pop(field), read)
+            scale = scale_of(kind, field, channel=bool(values.get("channel")))
+            read = _reader(get_args(attribute.type)[0]) if scale is None else partial(counts, scale=scale)
+            values[field] = _named(field, given[field], read)
         elif field not in values:
-            missing.append(f"{field}=... ({attribute.type.__metadata__[0].allowed})")
+            missing.append(f"{field}=... ({_writing(kind, field)})")
     if missing:
         raise UsageError(f"{kind.__name__} needs {', '.join(missing)}")
     return kind(**values)
+
+
+def _writing(kind: type[Message], field: str) -> str:
+    """Return how the values of a field are written."""
+    values, part = get_args(parts_of(kind)[field].type)
+    scale = scale_of(kind, field, channel=False)
+    how: str = "with commas between" if values in _LISTS else part.allowed.replace("00..FF", "0..255 or 00h..FFh")
+    if field in _PARTS:
+        how = f"a number, or {' '.join(f'{name}=...' for name in _PARTS[field])}"
+    elif scale:
+        how = f"a number, in {scale.unit}"
+    elif values is bool:
+        how = "true or false"
+    elif isinstance(values, type) and issubclass(values, Enum):
+        how = ", ".join(one.name.lower() for one in values)
+    elif _reader(values) is type_code:
+        how = "two hex digits or a name such as K"
+    return how
 
 
 def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
@@ -157,7 +172,11 @@ def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
     return given
 
 
-def _find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
+def find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
+    """Find a message by its name, in any spelling.
+
+    Errors: `UsageError`.
+    """
     plain = {kind.__name__.lower(): kind for kind in kinds}
     wanted = name.lower().replace("-", "").replace("_", "")
     if wanted not in plain:
@@ -177,12 +196,11 @@ def _named(field: str, text: str, read: Callable[[str], Any]) -> Any:  # noqa: A
         raise UsageError(f"{field}: {error}") from None
 
 
-def _reader(annotation: Any) -> Callable[[str], Any]:  # noqa: ANN401 - the type of a field
-    """Choose how to read the text of a field."""
-    kind = get_args(annotation)[0]
+def _reader(kind: Any) -> Callable[[str], Any]:  # noqa: ANN401 - a type
+    """Choose how to read the text of a field with values of this type."""
     if isinstance(kind, type) and issubclass(kind, Enum):
         return lambda text: member(text, kind)
-    return _READERS.get(kind, type_code)
+    return _LISTS.get(kind) or _READERS.get(kind, type_code)
 
 
 def _number(text: str) -> float:
@@ -205,6 +223,8 @@ _READERS: dict[Any, Callable[[str], Any]] = {
     float: _number,
     str: str,
     bytes: _hex,
+}
+_LISTS: dict[Any, Callable[[str], Any]] = {
     tuple[str, ...]: lambda text: tuple(text.split(",")),
     tuple[int, ...]: lambda text: tuple(map(integer, text.split(","))),
     tuple[bool, ...]: lambda text: tuple(map(truth, text.split(","))),

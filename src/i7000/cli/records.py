@@ -17,7 +17,16 @@ from i7000.dissect.meaning import errata
 from i7000.message import Message
 from i7000.settings import Protocol
 
-__all__ = ["PROTOCOLS", "SCHEMA_VERSION", "Record", "command_record", "frameless_record", "heard_record", "parts_of"]
+__all__ = [
+    "PROTOCOLS",
+    "SCHEMA_VERSION",
+    "Record",
+    "command_record",
+    "frameless_record",
+    "heard_record",
+    "parts_of",
+    "register_record",
+]
 
 Record = dict[str, Any]
 SCHEMA_VERSION = 1
@@ -195,3 +204,20 @@ def command_record(command: Any, models: Iterable[str]) -> Record:  # noqa: ANN4
 
 def _syntax(kind: Any) -> str:  # noqa: ANN401 - a class of either protocol
     return str(kind.pdu if issubclass(kind, modbus.Message) else kind.syntax)
+
+
+def register_record(row: modbus.Register) -> Record:
+    """Return the record of a row of an address map, as ``i7000 registers`` lists it."""
+    return {
+        "number": row.number,
+        "last_number": row.last_number,
+        "name": row.name,
+        "address": row.address,
+        "count": row.count,
+        "access": row.access.value,
+        "kind": row.kind.value,
+        "unit": row.unit,
+        "scale": row.scale,
+        "minimum": row.minimum,
+        "maximum": row.maximum,
+    }

@@ -129,7 +129,7 @@ def _check(eeprom: Eeprom) -> None:
 
 
 def _defined_baud_rate(text: str) -> BaudRate:
-    rate = baud_rate(f"{integer(text)}")
+    rate = baud_rate(text)
     if not isinstance(rate, BaudRate):
         raise UsageError(f"{text} baud is none of {', '.join(str(known.bits_per_second) for known in BaudRate)}")
     return rate

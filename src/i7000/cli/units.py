@@ -5,10 +5,11 @@ Laws: a decimal number is in the unit that ``i7000 decode`` prints, a number in 
 
 import re
 from decimal import Decimal
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
-from i7000 import dcon, modbus
+from i7000 import modbus
 from i7000.cli.numbers import integer, is_hex
+from i7000.cli.records import parts_of
 from i7000.cli.words import UsageError
 from i7000.message import Message
 
@@ -25,23 +26,18 @@ class Scale(NamedTuple):
     """Where the field holds two's complement without a sign, how many bits of it."""
 
 
-_SCALES: dict[tuple[type[Message], str], Scale] = {
-    (dcon.CjcOffset, "offset"): Scale("degC", 100),
-    (dcon.SetCjcOffset, "offset"): Scale("degC", 100),
-    (dcon.HostWatchdogTimeout, "timeout"): Scale("s", 10),
-    (dcon.SetHostWatchdogTimeout, "timeout"): Scale("s", 10),
-    (dcon.SetSoftInitTimeout, "timeout"): Scale("s", 1),
-    (modbus.SetCjcOffset, "offset"): Scale("degC", 100),
-}
-_OF_A_CHANNEL = Scale("degC", 10, bits=8)
-"""The CJC offset of a channel by function 46h; that of the module, which has channel 0, is in the table above."""
+def scale_of(kind: type[Message], field: str, *, channel: bool) -> Scale | None:
+    """Return the scale of a field, or None if it is not a count; `channel` if it is of a channel, not of the module.
 
-
-def scale_of(kind: type[Message], field: str, channel: int) -> Scale | None:
-    """Return the scale of a field, or None if it is a plain number; `channel` is that of the message, or 0."""
-    if channel and (kind, field) == (modbus.SetCjcOffset, "offset"):
-        return _OF_A_CHANNEL
-    return _SCALES.get((kind, field))
+    >>> from i7000 import dcon
+    >>> scale_of(dcon.SetHostWatchdogTimeout, "timeout", channel=False)
+    Scale(unit='s', per_unit=10, bits=0)
+    """
+    if (kind, field) == (modbus.SetCjcOffset, "offset"):
+        return Scale("degC", 10, bits=8) if channel else Scale("degC", 100)
+    number, part = get_args(parts_of(kind)[field].type)
+    unit = getattr(part, "unit", None)
+    return Scale(unit, round(1 / part.scale)) if unit and number is int else None
 
 
 def counts(text: str, scale: Scale) -> int:
@@ -56,16 +52,16 @@ def counts(text: str, scale: Scale) -> int:
         return integer(text)
     found = re.fullmatch(r"([-+]?[0-9]{1,10}(?:\.[0-9]{0,9})?|[-+]?\.[0-9]{1,9}) *(.*)", text.strip())
     if not found or found[2].lower() not in ("", scale.unit.lower()):
-        return _refused(text, scale)
+        if not scale.unit:
+            return integer(text)  # which says what is wrong
+        raise UsageError(f"{text!r} is not a value in {scale.unit}: a decimal number as 2.5, or counts in hex as 0x19")
     exact = Decimal(found[1]) * scale.per_unit
     if exact != int(exact):
         raise UsageError(f"{text} is between two counts: steps of {1 / scale.per_unit:g} {scale.unit}".rstrip())
-    signed, limit = int(exact), 1 << scale.bits >> 1
-    return signed & (1 << scale.bits) - 1 if -limit <= signed < limit else signed
-
-
-def _refused(text: str, scale: Scale) -> int:
-    """Raise the reason why a text is not a number of the scale."""
-    if not scale.unit:
-        return integer(text)  # which says why
-    raise UsageError(f"{text!r} is not a value in {scale.unit}: a decimal number as 2.5, or counts in hex as 0x19")
+    if not scale.bits:
+        return int(exact)
+    limit = 1 << scale.bits - 1
+    if not -limit <= exact < limit:
+        low, high = -limit / scale.per_unit, (limit - 1) / scale.per_unit
+        raise UsageError(f"{text} is not within {low:g}..{high:g} {scale.unit}")
+    return int(exact) & (1 << scale.bits) - 1
