@@ -291,7 +291,7 @@ SCRIPT = "import sys; from i7000.cli import main; sys.exit(main())"
 
 def test_it_runs_as_a_process() -> None:
     result = subprocess.run(  # noqa: S603
-        [sys.executable, "-c", SCRIPT, "decode"], input=b"$012\n\xff\n", capture_output=True, check=False
+        [sys.executable, "-c", SCRIPT, "decode"], input=b"$012\n$01\xff\n", capture_output=True, check=False
     )
 
     assert result.stdout.splitlines()[0] == b"1    $012"

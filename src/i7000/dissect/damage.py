@@ -35,8 +35,10 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             beside = crossed[: run[0].start] + crossed[run[-1].end :]
             words = sum(byte.word for byte in run) == len(run)
             many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
-            if (protocol is not None or many) and _DIRECTION.fullmatch(beside):
-                return wire_of(run)
+            wire = wire_of(run)
+            heading = wire == bytes(range(len(wire)))
+            if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
+                return wire
     if protocol is Protocol.DCON:
         first = min((at for at in map(crossed.find, _LEADING) if at >= 0), default=-1)
         if first >= 0 and _DIRECTION.fullmatch(crossed[:first].rstrip("<-=>")):
