@@ -26,6 +26,7 @@ from i7000 import (
     dcon,
 )
 from i7000.cli.numbers import integer
+from i7000.cli.refusals import as_written
 from i7000.cli.words import (
     UsageError,
     baud_rate,
@@ -80,24 +81,34 @@ def read_module(text: str, address: int) -> tuple[Eeprom, bool]:
     """
     head, *assignments = text.split(",")
     model, at, firmware = head.partition("@")
+    written: dict[str, tuple[str, str]] = {}
     with _named(repr(text)):
         made = factory(Model.find(model.strip()), Firmware(firmware.strip()) if at else None)
-        values = _assigned(assignments, made)
+        values = _assigned(assignments, made, written)
         init_switch = values[""].pop("init_switch", False)
-        eeprom = evolve(
-            made,
-            line_settings=evolve(made.line_settings, **values["line_settings"]),
-            report_settings=evolve(made.report_settings, **values["report_settings"]),
-            **{"address": address} | values[""],
-        )
-        _check(eeprom)
+        try:
+            eeprom = evolve(
+                made,
+                line_settings=evolve(made.line_settings, **values["line_settings"]),
+                report_settings=evolve(made.report_settings, **values["report_settings"]),
+                **{"address": address} | values[""],
+            )
+            _check(eeprom)
+        except EncodeError as refusal:
+            if refusal.field not in written:
+                raise
+            raise as_written(refusal, *written[refusal.field]) from None
     return eeprom, init_switch
 
 
-def _assigned(assignments: Iterable[str], made: Eeprom) -> dict[str, dict[str, Any]]:
-    """Read the values of fields: those of the EEPROM, and those of its bytes CC and FF."""
+def _assigned(
+    assignments: Iterable[str], made: Eeprom, written: dict[str, tuple[str, str]]
+) -> dict[str, dict[str, Any]]:
+    """Read the values of fields: those of the EEPROM, and those of its bytes CC and FF.
+
+    Special: `written` gets the name and text of each field.
+    """
     values: dict[str, dict[str, Any]] = {"": {}, "line_settings": {}, "report_settings": {}}
-    given: dict[str, str] = {}
     for assignment in assignments:
         name, equals, value = (part.strip() for part in assignment.partition("="))
         if not equals:
@@ -105,7 +116,7 @@ def _assigned(assignments: Iterable[str], made: Eeprom) -> dict[str, dict[str, A
         if name not in _SETTINGS:
             raise UsageError(f"a module has no {name!r}: {', '.join(_SETTINGS)}{near(name, list(_SETTINGS))}")
         setting = _SETTINGS[name]
-        before = given.setdefault(setting.field, name)
+        before, _ = written.setdefault(setting.field, (name, value))
         if setting.field in values[setting.within]:
             raise UsageError(
                 f"{name} is given twice" if before == name else f"give {before} or {name}: they are the same"
