@@ -151,6 +151,7 @@ def _fields_of(value: Any) -> dict[str, Any]:
 CALLS = (
     call("i7000.BaudRate.of", 6, on=BaudRate),
     call("i7000.DataFormat.of", 1, on=DataFormat),
+    call("i7000.TypeCode.name_of", 15, on=TypeCode),
     call("i7000.TypeCode.of", 15, on=TypeCode),
     call("i7000.Firmware", "B3.7"),
     call("i7000.Firmware.from_bytes", bytes((0x0B, 3, 7)), on=Firmware),
