@@ -17,8 +17,8 @@ from i7000.cli.words import (
     near,
     quantity,
 )
+from i7000.describe import address as address_words
 from i7000.device import Eeprom, Signal
-from i7000.dissect.numbers import address_words
 from i7000.simulator.files import UnsuitableFileError
 from i7000.simulator.recordings import read_recording
 from i7000.simulator.sources import (
