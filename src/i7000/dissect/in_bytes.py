@@ -69,11 +69,13 @@ def _spans(kind: Kind, pieces: tuple[bytes | Noise, ...]) -> list[Span]:
     return spans
 
 
-def good_in_run(run: Run) -> Iterator[Found]:
-    """Find the good frames in a run."""
+def good_in_run(text: str, run: Run) -> Iterator[Found]:
+    """Find the good frames in a run whose bytes have all the same between them, but for blanks."""
     if len(run) >= SHORTEST_RUN:
         for kind, start, end in frames_of(wire_of(run)):
-            yield _found(kind, run, start, end)
+            gaps = {"".join(text[run[at].end : run[at + 1].start].split()) for at in range(start, end - 1)}
+            if len(gaps) == 1:
+                yield _found(kind, run, start, end)
 
 
 def in_run(text: str, run: Run) -> Iterator[Found]:

@@ -44,20 +44,29 @@ def wire_of(run: Run) -> bytes:
     return bytes([byte[0] for byte in run])
 
 
-_DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
-_TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
+_DATE = r"\d{3}([-/.])\d\d?\1\d\d?|\d?([/.])\d\d?\2\d{2,4}"
+_TIME = r"\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
 _UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
 _NUMBERS = pattern(
-    rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
-    rf"|(?<!\w)\d+(?=\s?(?:{_UNIT})\b)"
-    r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
-    r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+    rf"\d(?:(?<![\w:.\-/].)(?:(?:{_DATE})(?:[T_ ]+\d{_TIME})?|{_TIME}|\d*\.\d+)(?!\w|[:.\-/]\w)"
+    rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
+    re.DOTALL,
 )
-"""What looks like bytes and is none."""
+"""Dates, times, decimal fractions, and numbers with a unit: what looks like bytes and is none.
+
+All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
+"""
+_OFFSET = pattern(
+    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$)))"
+)
+"""The offset at the start of a row of a dump."""
 
 
 def without_numbers(text: str) -> str:
     """Cross out dates, times and offsets by letters, so that no run goes through them."""
+    offset = _OFFSET.match(text)
+    if offset:
+        text = "z" * offset.end() + text[offset.end() :]
     return _NUMBERS.sub(lambda found: "z" * len(found[0]), text)
 
 

@@ -50,7 +50,7 @@ def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
     first = Piece(0, 0, "", None, b"")
     last = 0
     for piece in _pieces(lines):
-        if piece.wire and piece.wire in first.wire and piece.number == last + 1 and _repeats(first, piece):
+        if piece.number == last + 1 and piece.wire and piece.wire in first.wire and _repeats(first, piece):
             yield piece._replace(same_as=first.number)
         else:
             yield piece
@@ -77,8 +77,9 @@ def _pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
             continue
         found, part = read_line(text)
         if not part or not (parts or _begins(part)):
-            yield from _apart(parts)
-            parts = []
+            if parts:
+                yield from _apart(parts)
+                parts = []
             yield from _of_line(number, text, found)
             continue
         parts.append(_Part(number, text, found, part))
