@@ -70,7 +70,7 @@ def test_what_a_module_hears_and_says_is_found_in_every_spelling(
     kind, name = which
     is_text = wire.endswith(b"\r") and wire[:-1].isascii() and is_shaped(wire[:-1].decode("ascii"))
     assume(is_text or kind == "bytes")
-    assume(modbus.crc16(wire) == 0 or is_text)
+    assume(is_text or (modbus.crc16(wire) == 0 and not wire.decode("latin-1").isprintable()))
 
     assert wires(before + spelling(kind, name)(wire) + after) == [wire]
 
