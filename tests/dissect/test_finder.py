@@ -206,3 +206,14 @@ def test_bytes_behind_a_frame_in_its_own_spelling_are_found_as_damaged() -> None
     frame, noise = find(f"RX {RESPONSE.hex(' ')} FF FF ok")
 
     assert (frame.wire, noise.wire) == (RESPONSE, b"\xff\xff")
+
+
+@pytest.mark.parametrize("text", ["1: 04 00 00 00 01 31 CA", "1; 4, 0, 0, 0, 1, 49, 202"])
+def test_a_line_number_is_not_the_first_byte_of_a_frame(text: str) -> None:
+    assert Kind.MODBUS not in [found.kind for found in find(text)]
+
+
+def test_a_line_of_many_frames_and_columns_is_not_searched_for_repeats() -> None:
+    line = "$012 24 30 31 32 0D " * 300
+
+    assert wires(line) == [b"$012\r"] * 600

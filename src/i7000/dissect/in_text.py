@@ -15,7 +15,7 @@ _MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
 _UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
 _WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
-_CUT = pattern(r"[\"'`<,;|)\]}]|[-=]+>")
+_CUT = pattern(r"[\"'`<,;|&)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
 _ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
 _NUMBERED = pattern(r">[+-]\d")

@@ -80,7 +80,7 @@ _HEX = pattern(
 """A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
 _LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
 _DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
-_BETWEEN = pattern(r"[\W_]{0,8}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
+_BETWEEN = pattern(r"[\W_]{0,8}|[\W_]{1,4}(?:CRC|crc)(?:16)?[\W_]{1,4}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
 """What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
 _IN_A_ROW = pattern(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
@@ -202,10 +202,10 @@ def _character(one: re.Match[str], base: int) -> Byte:
 
 
 _BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
-"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13."""
+"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13h."""
 _ENDS = rf"""
-    [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
-    | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5
+    (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD] | \\015
+    | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5
     | \$0D (?![0-9A-Za-z]) | \r
 """
 _LINE_FEEDS = rf"""
