@@ -80,7 +80,7 @@ def read_line(text: str) -> Line:
     """
     if not _SIGNS.search(text):
         return _NOTHING
-    left_over = _LEFT_OVER.search(text)
+    left_over = _LEFT_OVER.search(text) if "data:" in text else None
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
@@ -98,10 +98,13 @@ def read_line(text: str) -> Line:
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
     if not good:
         crossed = _without_hex(crossed, runs)
+        known = set(wires)
         for numbers in (loose_hex_runs, decimal_runs):
-            fresh = (run for run in numbers(crossed) if wire_of(run) not in wires)
+            fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
             good += [found for run in fresh for found in good_in_run(text, run)]
     part = b"" if good else max(wires, key=len, default=b"")
+    if not good and not damaged:
+        return Line((), part)
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):
