@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from attrs import frozen
 from cyclopts import App, CycloptsError, Parameter
 
-from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Profile, dcon, modbus
+from i7000 import DataFormat, EncodeError, Firmware, InvalidValueError, ModbusDataFormat, Model, Profile, dcon, modbus
 from i7000.cli import rtu, rtu_records
 from i7000.cli.dcon import Known
 from i7000.cli.hex_lines import numbered_hex_pieces
@@ -77,7 +77,7 @@ class Module:
                 self.modbus_format,
             )
             _ = known.default, known.all
-        except EncodeError as error:
+        except InvalidValueError as error:
             raise UsageError(error) from None
         return known
 

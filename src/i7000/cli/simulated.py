@@ -15,9 +15,9 @@ from i7000 import (
     BaudRate,
     CharacterFormat,
     DataFormat,
-    EncodeError,
     Filter,
     Firmware,
+    InvalidValueError,
     ModbusDataFormat,
     Model,
     Protocol,
@@ -61,7 +61,7 @@ def _named(*names: str) -> Iterator[None]:
     """Tell in errors what was read."""
     try:
         yield
-    except (UsageError, EncodeError) as error:
+    except (UsageError, InvalidValueError) as error:
         raise UsageError(": ".join((*names, str(error)))) from None
 
 
@@ -118,7 +118,7 @@ def _assigned(assignments: Iterable[str], made: Eeprom) -> dict[str, dict[str, A
 def _check(eeprom: Eeprom) -> None:
     """Refuse what the module could not have been set to.
 
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
     """
     profile = power_on(eeprom, now=0.0).profile
     code = profile.type_codes[0]

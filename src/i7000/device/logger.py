@@ -9,7 +9,7 @@ from math import ceil, floor
 
 from attrs import evolve
 
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.settings import LogCommand, is_number
 
@@ -42,7 +42,7 @@ class Log:
 
     Shape: records are counted from 1 on, so that a last index of 0 says that there is none (E105).
     Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
-    Errors: `EncodeError` for a time that is not finite.
+    Errors: `InvalidValueError` for a time that is not finite.
     Manual: 3.4.3; E73, E74, E105, E109, E110, E111, E131, E135.
     """
 
@@ -63,7 +63,7 @@ class Log:
     def __attrs_post_init__(self) -> None:
         for name, value in (("clock_offset", self.clock_offset), ("next_at", self.next_at)):
             if not is_number(value):
-                raise EncodeError(name, value, "a finite number of seconds", "")
+                raise InvalidValueError(name, value, "a finite number of seconds", "")
 
     @property
     def seconds(self) -> int:
