@@ -180,7 +180,7 @@ def decode_numbers(fields: tuple[str, ...], profile: Profile) -> tuple[Reading, 
     line = "".join(fields)
     if len(line) != width:
         return None
-    if points.__class__ is slice:
+    if isinstance(points, slice):
         if line[points] != all_points:
             return None
         values = tuple(map(float, fields))
