@@ -13,9 +13,9 @@ from i7000 import (
     BaudRate,
     CharacterFormat,
     DataFormat,
-    EncodeError,
     Filter,
     Firmware,
+    InvalidValueError,
     ModbusDataFormat,
     Model,
     Protocol,
@@ -36,7 +36,7 @@ def named(*names: str) -> Iterator[None]:
     """Tell in errors what was read."""
     try:
         yield
-    except (UsageError, EncodeError) as error:
+    except (UsageError, InvalidValueError) as error:
         raise UsageError(": ".join((*names, str(error)))) from None
 
 
@@ -78,7 +78,7 @@ def read_module(text: str, address: int) -> Described:
                 **{"address": address} | values[""],
             )
             _check(eeprom)
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             if refusal.field not in written:
                 raise
             raise as_written(refusal, *written[refusal.field]) from None
@@ -116,7 +116,7 @@ def _assigned(
 def _check(eeprom: Eeprom) -> None:
     """Refuse what the module could not have been set to.
 
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
     """
     profile = power_on(eeprom, now=0.0).profile
     code = profile.type_codes[0]
