@@ -7,6 +7,7 @@ from cyclopts import Parameter
 
 from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model
 from i7000.cli.dcon import Known
+from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, type_codes
 
 __all__ = ["UNKNOWN", "Json", "Module", "ProtocolName"]
@@ -54,8 +55,15 @@ class Module:
                 self.modbus_format,
             )
             _ = known.default, known.all
-        except EncodeError as error:
-            raise UsageError(error) from None
+        except EncodeError as refusal:
+            written = {
+                "model": ("--model", self.model),
+                "firmware": ("--firmware", self.firmware),
+                "type_codes": ("--type", self.types),
+                "single_ended": ("--single-ended", "given"),
+            }
+            name, text = written[refusal.field]
+            raise UsageError(as_written(refusal, name, f"{text}")) from None
         return known
 
 
