@@ -9,19 +9,26 @@ import sys
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 and the number of the signal, as a shell has it."""
+FAILED = 2
+"""Exit code if the output cannot be written, as on a full disk; and of wrong usage."""
 CLOSED = 141
 """Exit code if nobody reads the output to its end, as after ``| head -1``: the same of a broken pipe."""
 
+_ROOM = 1 << 16
+"""Bytes of output that are written at once: each time takes as long as many lines."""
+
 try:
     import signal
+    from contextlib import suppress
 except KeyboardInterrupt:  # pragma: no cover
     os._exit(INTERRUPTED)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from typing import TextIO
 
-__all__ = ["CLOSED", "INTERRUPTED", "main", "program"]
+__all__ = ["CLOSED", "INTERRUPTED", "end_at_ctrl_c", "main", "program", "roomy"]
 
 
 def main() -> int:
@@ -32,7 +39,19 @@ def main() -> int:
 
         return command_line()
 
+    sys.stdout = roomy(sys.stdout)
     return program(run)
+
+
+def roomy(output: "TextIO | None") -> "TextIO | None":
+    """Return an output that keeps more until it is written; that of a terminal, which shows each line, stays."""
+    try:
+        if output is None or output.isatty():
+            return output
+        descriptor = output.fileno()
+    except OSError:  # It is no file of the system.
+        return output
+    return open(descriptor, "w", _ROOM, output.encoding, output.errors, closefd=False)
 
 
 def program(run: "Callable[[], int]") -> int:
@@ -40,20 +59,28 @@ def program(run: "Callable[[], int]") -> int:
 
     Special: Ctrl-C ends the process where it is, unless `run` has it do something else. After `run` it has no effect.
     """
-    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # A job in the background ignores it.
-    if heeded:
-        signal.signal(signal.SIGINT, _end)
+    end_at_ctrl_c()
     code = run()
-    if heeded:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         if sys.stdout is not None:
             sys.stdout.flush()
     except OSError as error:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())  # for what is left, which Python writes when it ends
-        return CLOSED if isinstance(error, BrokenPipeError) else code or 2
+        if isinstance(error, BrokenPipeError):
+            return CLOSED
+        if code != FAILED and sys.stderr is not None:  # else it was reported when it happened
+            with suppress(OSError):
+                sys.stderr.write(f"the output cannot be written: {error.strerror}\n")
+        return FAILED
     return code
+
+
+def end_at_ctrl_c() -> None:
+    """End the process where it is at Ctrl-C, unless it is ignored, as by a job in the background."""
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _end)
 
 
 def _end(*_: object) -> None:

@@ -6,10 +6,15 @@ from collections.abc import Callable
 
 import pytest
 
+from i7000 import Protocol
 from i7000.cli import main
+from i7000.cli.decode import records
+from i7000.cli.words import UsageError
+from i7000.dissect import Knowledge, Known
 from tests.spec.lint import Record
+from tests.vectors import profile_of
 
-__all__ = ["Run", "Told", "plain", "run"]
+__all__ = ["Run", "Told", "known_of", "logged", "plain", "refusal", "run"]
 
 
 @pytest.fixture
@@ -43,3 +48,30 @@ def run(plain: None, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mon
         return Told(code, *capsys.readouterr())
 
     return call
+
+
+def logged(*lines: str, known: Known = Known(), protocol: Protocol | None = None) -> list[Record]:  # noqa: B008 - frozen
+    """The records of a log."""
+    return [record for record, _ in records(enumerate(lines, 1), Knowledge.given(known), protocol)]
+
+
+def known_of(vector: Record) -> Known:
+    """What the profile of a vector by DCON says."""
+    profile = profile_of(vector["profile"])
+    return Known(
+        profile.model,
+        profile.firmware,
+        profile.type_codes,
+        profile.data_format,
+        profile.checksum,
+        profile.single_ended,
+    )
+
+
+def refusal(read: Callable[[], object]) -> str:
+    """Why nothing can be read; empty if it can."""
+    try:
+        read()
+    except UsageError as refused:
+        return str(refused)
+    return ""

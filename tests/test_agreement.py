@@ -27,7 +27,7 @@ from i7000 import (
 )
 from i7000.availability import Availability
 from i7000.dcon.codec import COMMANDS
-from i7000.dcon.layout import Part
+from i7000.dcon.parts import Part
 from i7000.models import CONFIGURABLE
 from i7000.readings import decode_engineering_word, decode_field, encode_engineering_word, encode_field
 from tests.spec.lint import Record, rows

@@ -1,5 +1,6 @@
 """Output that holds up nobody."""
 
+import errno
 import io
 import os
 import pty
@@ -168,8 +169,7 @@ class Closed(io.StringIO):
         raise ValueError(text)
 
 
-def written_to_nobody(file: IO[str]) -> int:
-    out = Outlet(file)
+def written_to_nobody(out: Outlet) -> int:
     out.write(LINE)
     until(lambda: out.skip(1))
     for _ in range(5000):
@@ -178,15 +178,39 @@ def written_to_nobody(file: IO[str]) -> int:
 
 
 def test_a_file_that_was_closed_is_written_nothing() -> None:
-    assert written_to_nobody(Closed()) == 0
+    assert written_to_nobody(Outlet(Closed())) == 0
 
 
 def test_a_reader_that_is_gone_is_written_nothing() -> None:
     reading, writing = os.pipe()
     with os.fdopen(writing, "w", encoding="utf-8") as file:
         os.close(reading)
+        out = Outlet(file)
 
-        assert written_to_nobody(file) == 0
+        assert written_to_nobody(out) == 0
+        assert not out.failed
+
+
+def test_a_disk_that_is_full_is_reported_once() -> None:
+    reported: list[OSError] = []
+    with open("/dev/full", "w", encoding="utf-8") as file:  # noqa: PTH123
+        out = Outlet(file, report=reported.append)
+        out.write(LINE)
+        until(lambda: out.skip(1))
+        out.write(LINE)
+        out.close()
+
+    assert out.failed
+    assert [error.errno for error in reported] == [errno.ENOSPC]
+
+
+def test_a_disk_that_is_full_need_not_be_reported() -> None:
+    with open("/dev/full", "w", encoding="utf-8") as file:  # noqa: PTH123
+        out = Outlet(file)
+        out.write(LINE)
+        out.close()
+
+    assert out.failed
 
 
 def test_a_file_that_others_made_non_blocking_is_waited_for_and_stays_so() -> None:

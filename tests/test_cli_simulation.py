@@ -407,7 +407,37 @@ def test_faults_add_up() -> None:
 
 def test_only_this_machine_gets_there_unless_another_host_is_said() -> None:
     assert read_place("socket", "5020").host == "127.0.0.1"
+    assert read_place("socket", ":5020").host == "127.0.0.1"
     assert read_place("socket", "0.0.0.0:5020").host == "0.0.0.0"  # noqa: S104
+
+
+@pytest.mark.parametrize("text", ["[::1]:0", "[fe80::1%lo]:65535", "[::ffff:127.0.0.1]:00005", "localhost:5020", "*:0"])
+def test_a_place_is_a_host_and_a_port(text: str) -> None:
+    place = read_place("rfc2217", text)
+
+    host, port = text.rsplit(":", 1)
+    assert (place.scheme, place.host, place.port) == ("rfc2217", host.strip("[]"), int(port))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[::1:0", "::1]:0", "::1:0", "[]:0", "[::1]x:0", "x[::1]:0", "[[::1]]:0", "[localhost]:0", "[::1%]:0",
+        "[::g]:0", "[:0", "]:0", "a:b:0", ":::0",
+    ],
+)  # fmt: skip
+def test_a_host_that_is_not_whole_is_refused(text: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(f"{text!r} is no [HOST:]PORT: an IPv6 address stands in brackets")):
+        read_place("socket", text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "[::1]", "localhost", "[::1]:", "1:65536", "1:-1", "1:+1", "1: 1", "1:1 ", "1:1e3", "1:000001", "1:\u0663"],
+)
+def test_a_port_that_is_none_is_refused(text: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(f"{text!r} is no [HOST:]PORT: a port is 0..65535")):
+        read_place("socket", text)
 
 
 def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -175,7 +175,10 @@ def test_a_log_is_decoded_as_it_arrives() -> None:
         assert shown.startswith(b"1    $012\n     ReadConfiguration: ")
 
         os.write(process.stdin.fileno(), b"!01050600\r")
-        assert os.read(process.stdout.fileno(), 1 << 16).startswith(b"2    !01050600\n     Configuration: ")
+        shown = b""
+        while b"\n       models " not in shown:
+            shown += os.read(process.stdout.fileno(), 1 << 16)
+        assert shown.startswith(b"2    !01050600\n     Configuration: ")
         process.stdin.close()
         assert process.wait() == 0
 
@@ -185,7 +188,6 @@ def test_a_long_line_is_said_to_be_read_in_pieces(run: Run) -> None:
 
     assert result.err.splitlines() == [
         "i7000: 1 too long, read in pieces of 65536 bytes that may cut frames: line 2",
-        "i7000: 1 not understood: line 2",
     ]
     assert result.out.count("\\x00") == 200_000
     assert result.code == 1

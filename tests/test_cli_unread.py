@@ -10,10 +10,13 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
 import pytest
+
+from tests.simulator.running import until
 
 MODEL = ("--model", "I-7018", "--signal", "all=1.5V")
 SAID = b">" + b"+1.5000" * 8 + b"\r"
@@ -117,6 +120,28 @@ def test_a_second_signal_does_not_cut_the_end_short(again: signal.Signals) -> No
 
     assert code == 0
     assert errors.endswith(b" lines not shown\n")
+
+
+def test_a_disk_that_is_full_is_reported_while_the_bus_goes_on(tmp_path: Path) -> None:
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
+
+    shown = tmp_path / "shown.txt"
+    with (
+        shown.open("wb") as file,
+        process("--tcp", "0", "--view", "lines", stdout=file, stderr=subprocess.PIPE, preexec_fn=limit) as started,
+    ):
+        assert started.stderr
+        until(lambda: shown.read_bytes().endswith(b"\n"))
+        with socket.create_connection(place(shown.read_bytes()), timeout=5) as host:
+            asked(host, b"#01\r", SAID, 100)
+            errors = first_line(started.stderr.fileno(), b"i7000")
+            asked(host, b"#01\r", SAID, 100)
+            code, _ = ended(started)
+        errors += started.stderr.read()
+
+    assert (code, errors) == (2, b"i7000: the output cannot be written: File too large\n")
+    assert len(shown.read_bytes()) == 200
 
 
 def test_lines_that_were_dropped_are_counted_where_they_would_have_been() -> None:

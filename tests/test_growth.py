@@ -14,6 +14,7 @@ import pytest
 
 from i7000 import I7000Error, Model, dcon, device, modbus
 from i7000.device.uart import hear_at
+from i7000.dissect import pieces
 from tests.calls import CALLS
 
 SHORT, TIMES = 64 * 1024, 8
@@ -104,3 +105,26 @@ def test_time_grows_in_proportion_to_what_is_heard_at_another_speed() -> None:
     assert grows_in_proportion(
         hear, *(of_length(BLOCKS["noise"], length) for length in (SHORT // 16, SHORT // 16 * TIMES))
     )
+
+
+LINES = (
+    ">", "$", "!", "01 ", "\\x", "0x", "[01]", "'\\", '"\\x01" ', "$)", "#>", ">+0025.1", "0000", "1-4-0-",
+    "$01 24 30 31 0d ", "12:00:01 ", "2026-11-30 ", "%0D", "FF FE ", "!01 01 04 00 ", " ", "a", "a ", "01 z 1 2 3 4 z ",
+)  # fmt: skip
+"""What is repeated in one line."""
+
+
+@pytest.mark.parametrize("block", LINES)
+def test_time_grows_in_proportion_to_a_line_in_which_frames_are_looked_for(block: str) -> None:
+    def find(line: str) -> object:
+        return list(pieces([(1, line)]))
+
+    lengths = SHORT // 4, SHORT // 4 * TIMES
+    assert grows_in_proportion(find, *((block * (length // len(block) + 1))[:length] for length in lengths))
+
+
+def test_time_grows_in_proportion_to_the_lines_of_a_log_whose_frames_are_cut() -> None:
+    def find(log: str) -> object:
+        return list(pieces(enumerate(log.splitlines(), 1)))
+
+    assert grows_in_proportion(find, *("RX 01 04\n" * (length // 64) for length in (SHORT, SHORT * TIMES)))

@@ -14,7 +14,7 @@ from hypothesis.strategies._internal import types
 
 import _i7000_hypothesis
 from i7000 import Model, Profile, dcon, modbus, strategies
-from i7000.dcon.layout import Part
+from i7000.dcon.parts import Part
 
 LATE = "_global_extra_lookup"
 """Where Hypothesis looks for those who resolve classes of their own."""

@@ -13,6 +13,7 @@ RINGS = {
     "frozen": 1,
     "arguments": 1,
     "availability": 1,
+    "compiled": 1,
     "type_codes": 1,
     "settings": 1,
     "describe": 1,
@@ -42,7 +43,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "collections", "enum", "functools", "itertools", "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "codecs", "collections", "contextlib", "enum", "functools", "itertools", "linecache", "math", "operator",
+    "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

@@ -16,9 +16,9 @@ from time import monotonic
 
 import pytest
 
-import i7000_cli
 from i7000.cli import app
-from i7000_cli import CLOSED, INTERRUPTED, program
+from i7000.cli.text import Printer
+from i7000_cli import CLOSED, FAILED, INTERRUPTED, program, roomy
 
 PROGRAM = (sys.executable, "-m", "i7000_cli")
 MODELS = ("simulate", "--model", "I-7018")
@@ -27,27 +27,39 @@ MODELS = ("simulate", "--model", "I-7018")
 # --- Ctrl-C -----------------------------------------------------------------------------------------------------------
 
 INTERRUPTED_WHILE_IMPORTING = """\
-import os, signal, sys
-import i7000_cli
+import importlib, os, runpy, signal, sys
+
+program = sys.argv.pop(1)
+package = program.rpartition(".")[0]
+if package:
+    importlib.import_module(package)  # as `python -m` does before anything of the program runs
 
 class Interrupting:
     left = int(sys.argv.pop(1))
 
-    def find_spec(self, *_):
-        Interrupting.left -= 1
+    def find_spec(self, name, *_):
+        Interrupting.left -= name not in (program, "i7000_cli")
         if Interrupting.left == 0:
             os.kill(os.getpid(), signal.SIGINT)
 
 sys.meta_path.insert(0, Interrupting())
-sys.exit(i7000_cli.main())
+runpy.run_module(program, run_name="__main__", alter_sys=True)
 """
+PROGRAMS = {
+    "commands": ("i7000_cli", "commands"),
+    "simulate": ("i7000_cli", *MODELS, "--tcp", "0"),
+    "sync_driver": ("i7000.examples.sync_driver", "/dev/null", "--model", "M-7018"),
+    "async_driver": ("i7000.examples.async_driver", "/dev/null", "--model", "M-7018"),
+}
 
 
-@pytest.mark.parametrize("command", [("commands",), (*MODELS, "--tcp", "0")], ids=lambda command: command[0])
-@pytest.mark.parametrize("count", [1, *Random(7000).sample(range(2, 100), 3)])
+@pytest.mark.parametrize("command", PROGRAMS.values(), ids=PROGRAMS)
+@pytest.mark.parametrize("count", [1, *Random(7000).sample(range(2, 40), 3)])
 def test_ctrl_c_while_importing_ends_it_without_a_word(command: tuple[str, ...], count: int) -> None:
+    name, *arguments = command
+
     ended = subprocess.run(  # noqa: S603 - ourselves
-        [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, str(count), *command],
+        [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, name, str(count), *arguments],
         capture_output=True,
         check=False,
         timeout=60,
@@ -96,11 +108,56 @@ def test_ctrl_c_ends_a_program_where_it_is(output: io.StringIO | None, monkeypat
     assert ended.value.code == INTERRUPTED
 
 
+def test_what_was_printed_before_ctrl_c_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "_exit", sys.exit)
+    reading, writing = os.pipe()
+
+    def decode_and_be_interrupted(_: object) -> int:
+        Printer().record({}, [[("what was decoded", "")]])
+        return interrupted()
+
+    with pytest.raises(SystemExit):
+        written_to(writing, decode_and_be_interrupted)
+
+    assert os.read(reading, 100) == b"what was decoded\n"
+    os.close(reading)
+
+
 def test_ctrl_c_has_no_effect_when_a_program_is_done() -> None:
     code = program(lambda: 7)
     interrupted()
 
     assert code == 7
+
+
+# --- output -----------------------------------------------------------------------------------------------------------
+
+
+def test_output_is_written_in_large_pieces() -> None:
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    with os.fdopen(writing, "w", encoding="latin-1", errors="backslashreplace") as file:
+        output = roomy(file)
+        assert output
+        output.write("\xe9\u20ac\n" * 5000)
+        with pytest.raises(BlockingIOError):
+            os.read(reading, 1 << 16)
+        output.flush()
+
+        assert os.read(reading, 1 << 16) == b"\xe9\\u20ac\n" * 5000
+    os.close(reading)
+
+
+def test_output_on_a_terminal_is_shown_line_by_line() -> None:
+    end, near = pty.openpty()
+    with os.fdopen(near, "w", encoding="ascii") as terminal:
+        assert roomy(terminal) is terminal
+    os.close(end)
+
+
+@pytest.mark.parametrize("output", [None, io.StringIO()])
+def test_output_that_is_no_file_of_the_system_stays(output: io.StringIO | None) -> None:
+    assert roomy(output) is output
 
 
 # --- output that nobody reads -----------------------------------------------------------------------------------------
@@ -125,8 +182,48 @@ def test_a_pipe_that_nobody_reads_has_an_exit_code_of_its_own() -> None:
     assert written_to(write, some) == CLOSED
 
 
-def test_a_full_disk_is_a_failure() -> None:
-    assert written_to(os.open("/dev/full", os.O_WRONLY), some) == 2
+def test_a_full_disk_is_a_failure(capsys: pytest.CaptureFixture[str]) -> None:
+    code = written_to(os.open("/dev/full", os.O_WRONLY), some)
+
+    assert (code, capsys.readouterr().err) == (FAILED, NO_ROOM)
+
+
+def test_a_failure_that_was_reported_is_not_reported_again(capsys: pytest.CaptureFixture[str]) -> None:
+    code = written_to(os.open("/dev/full", os.O_WRONLY), lambda output: some(output) or FAILED)
+
+    assert (code, capsys.readouterr().err) == (FAILED, "")
+
+
+FRAMES = ["$012\\r"] * 300
+NO_ROOM = "the output cannot be written: No space left on device\n"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("commands",),
+        ("--help",),
+        ("decode", "$012"),
+        ("decode", "$01"),
+        ("decode", *FRAMES),
+        ("registers", "--model", "M-7018"),
+    ],
+    ids=lambda it: " ".join(it)[:20],
+)
+def test_a_command_whose_output_finds_no_room_says_so_once(arguments: tuple[str, ...]) -> None:
+    with open("/dev/full", "wb") as full:  # noqa: PTH123
+        ended = subprocess.run(  # noqa: S603 - ourselves
+            [*PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, check=False
+        )
+
+    assert ended.returncode == FAILED
+    assert ended.stderr.count(b"No space left on device") == 1
+    assert b"Traceback" not in ended.stderr
+
+
+def test_a_full_disk_for_output_and_errors_alike_is_a_failure() -> None:
+    with open("/dev/full", "wb") as full:  # noqa: PTH123
+        assert subprocess.call([*PROGRAM, "commands"], stdout=full, stderr=full) == FAILED  # noqa: S603 - ourselves
 
 
 @pytest.mark.parametrize("arguments", [("commands",), ("--help",), ("decode", "$012")], ids=lambda it: it[0])
@@ -157,10 +254,13 @@ def test_what_ends_a_command_has_an_exit_code(
     assert capsys.readouterr() == ("", "")
 
 
-def test_a_command_without_an_output_writes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("arguments", "code"), [(["commands"], 0), (["decode", "nothing"], 1)])
+def test_a_command_without_an_output_writes_nothing(
+    arguments: list[str], code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(sys, "stdout", None)
 
-    assert program(lambda: app.run(["commands"])) == 0
+    assert program(lambda: app.run(arguments)) == code
 
 
 def test_a_terminal_that_is_gone_is_no_other_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -248,4 +348,4 @@ def test_the_exit_codes_are_those_that_the_help_names(capsys: pytest.CaptureFixt
     assert app.run(["--help"]) == 0
     told = " ".join(capsys.readouterr().out.split())
 
-    assert f"{i7000_cli.INTERRUPTED} after Ctrl-C, {i7000_cli.CLOSED} if nobody reads" in told
+    assert f"{FAILED} if the output cannot be written, {INTERRUPTED} after Ctrl-C, {CLOSED} if nobody reads" in told

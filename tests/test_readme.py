@@ -36,6 +36,15 @@ def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[
     assert printed[0] == "0 25.1 degC ok"
 
 
+@pytest.mark.parametrize(
+    "name", [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md"]
+)
+def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:
+    text = re.sub(r"```.*?```|^[|#].*?$", "", (ROOT / name).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+
+    assert [line for line in text.splitlines() if len(line) > 120] == []
+
+
 def test_every_fault_is_explained() -> None:
     assert {fault.name for fault in Fault} == set(
         re.findall(r"`([A-Z_]+)`", "".join(re.findall(r"^\| `[A-Z].*? \|", README, re.MULTILINE)))

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from i7000.errors import ArgumentError, EncodeError, StateError
 
-__all__ = ["as_bytes", "as_tuple", "check_clock", "check_int", "check_type"]
+__all__ = ["as_bytes", "as_tuple", "check_clock", "check_int", "check_seconds", "check_type", "is_number"]
 
 T = TypeVar("T")
 
@@ -65,6 +65,20 @@ def check_int(name: str, value: object) -> None:
         raise ArgumentError(name, value, "int")
 
 
+def is_number(value: object) -> bool:
+    """Whether a value is a finite number, of a size that a float can have, and no truth value."""
+    return isinstance(value, _NUMBERS) and not isinstance(value, bool) and abs(value) <= LARGEST_FLOAT
+
+
+def check_seconds(name: str, value: object) -> None:
+    """Check a time that is a field.
+
+    Errors: `EncodeError`.
+    """
+    if not is_number(value):
+        raise EncodeError(name, value, "a finite number of seconds", "")
+
+
 def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
     """Check a time in seconds, of a clock that was at `before` when it was last read.
 
@@ -73,7 +87,6 @@ def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
     """
     if not isinstance(now, _NUMBERS) or isinstance(now, bool):
         raise ArgumentError("now", now, "int or float")
-    if not abs(now) <= LARGEST_FLOAT:
-        raise EncodeError("now", now, "a finite number of seconds", "")
+    check_seconds("now", now)
     if now < before:
         raise StateError(f"the clock went back: now is {now!r}, and it was {before!r} before")

@@ -27,6 +27,9 @@ class CompiledOnce:
         self._compile = compile_layout
 
     def __get__(self, message: object, kind: Any) -> Any:  # noqa: ANN401 - a class and its layout
+        if not hasattr(kind, "section"):
+            instead: str = kind._instead  # noqa: SLF001 - of the class that this is part of
+            raise ArgumentError("message", kind, f"construct {instead}", f"{kind.__name__} is a base class")
         kind.layout = self._compile(kind)
         return kind.layout
 
@@ -54,16 +57,10 @@ class Message:
     """What to construct where a class is only the base of others, which has no section."""
 
     def __init__(self, *_: object, **__: object) -> None:  # of a base class without fields; attrs makes that of others
-        raise self._is_base()
+        _ = self.layout
 
     def __attrs_post_init__(self) -> None:
-        if not hasattr(self, "section"):
-            raise self._is_base()
         self.layout.check(self)
-
-    @classmethod
-    def _is_base(cls) -> ArgumentError:
-        return ArgumentError("message", cls, f"construct {cls._instead}", f"{cls.__name__} is a base class")
 
     def _values(self) -> dict[str, Any]:
         return {it.name: getattr(self, it.name) for it in fields(type(self))}  # type: ignore[arg-type] # of an attrs class

@@ -167,6 +167,11 @@ class Model(Enum):
         return self.value[6:]
 
     @property
+    def factory_name(self) -> str:
+        """The name that ``$AAM`` answers until another is set, which the I- and the M- model share (2.24)."""
+        return (self.series + self.suffix.replace("-", "")).upper()[:6]
+
+    @property
     def protocols(self) -> frozenset[Protocol]:
         """The protocols it speaks: Modbus RTU is what the M-7000 series adds."""
         return frozenset(Protocol) if self.value.startswith("M") else frozenset({Protocol.DCON})

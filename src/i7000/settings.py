@@ -10,7 +10,7 @@ from typing import Self
 
 from attrs import field
 
-from i7000.arguments import LARGEST_FLOAT, as_tuple, check_int
+from i7000.arguments import as_tuple, check_int
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
 
@@ -142,11 +142,6 @@ class LogCommand(IntEnum):
 def is_int(value: object, low: int, high: int) -> bool:
     """Whether a value is an int in a range, and no truth value."""
     return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
-
-
-def is_number(value: object) -> bool:
-    """Whether a value is a finite number, of a size that a float can have, and no truth value."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_FLOAT
 
 
 def _byte(name: str, value: int) -> int:

@@ -328,49 +328,6 @@ def test_codes_given_as_numbers_are_taken_like_their_members() -> None:
     assert dcon.encode(configuration(), I_7017) == dcon.encode(given, I_7017)
 
 
-# --- unknown modules --------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("frame", "commands"),
-    [
-        (b"$01A\r", [dcon.ReadAnalogInputsHex, dcon.ReadCjcUpdate]),
-        (b"$010C0\r", [dcon.CalibrateCurrentChannelSpan, dcon.CalibrateChannelZero]),
-        (b"#0184\r", [dcon.ReadAnalogInputs, dcon.ReadAnalogInput]),
-        (b"#**\r", [dcon.SynchronizedSampling]),
-    ],
-)
-def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, commands: list[Any]) -> None:
-    assert commands == [type(command) for command in dcon.candidates(frame)]
-
-
-@pytest.mark.parametrize(
-    ("frame", "fault", "offset"),
-    [
-        (b"", Fault.LENGTH, 0),
-        (b"$01z\r", Fault.COMMAND, 3),
-        (b"$012B6", Fault.TERMINATOR, 6),
-        (b"!01\r", Fault.LEADING, 0),
-        (b"x" * 300, Fault.LENGTH, 256),
-        (b"$01A3\r", Fault.VALUE, 4),
-        (b"$017C0X30\r", Fault.CHARACTER, 6),
-    ],
-)
-def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
-    frame: bytes, fault: Fault, offset: int
-) -> None:
-    with pytest.raises(DecodeError) as caught:
-        dcon.candidates(frame)
-
-    assert (fault, offset) == (caught.value.fault, caught.value.offset)
-
-
-@pytest.mark.parametrize("frame", [b"", b"$012\r", b"!01\xff\r", b"!\r", b">zz\r"])
-def test_what_no_module_says_has_no_candidates(frame: bytes) -> None:
-    with pytest.raises(DecodeError):
-        dcon.response_candidates(frame)
-
-
 @pytest.mark.parametrize(
     ("message", "profile"),
     [

@@ -21,7 +21,7 @@ from i7000 import (
     TypeCode,
     dcon,
 )
-from i7000.dcon import layout
+from i7000.dcon import parts
 
 
 def test_a_field_without_its_notation_in_the_syntax_is_a_slip_of_ours() -> None:
@@ -30,7 +30,7 @@ def test_a_field_without_its_notation_in_the_syntax_is_a_slip_of_ours() -> None:
         syntax = "$AA9"
         section = "2.18"
 
-        offset: layout.Offset
+        offset: parts.Offset
 
     with pytest.raises(TypeError, match=r"Slip: '\$AA9' has no 'SNNNN'"):
         _ = Slip.layout

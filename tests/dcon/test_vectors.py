@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from i7000 import DataFormat, DecodeError, EncodeError, Noise, TypeCode, dcon
-from i7000.dcon.candidates import response_candidates
 from i7000.dcon.frame import checksum, seal, split, unseal
+from i7000.dissect import meanings
 from i7000.readings import decode_field
 from tests.spec.lint import Record
 from tests.vectors import dcon_vectors, message_of, parameters, profile_of
@@ -43,8 +43,8 @@ def test_a_command_is_read_as_the_vector_says(vector: Record) -> None:
 
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
-def test_a_command_is_among_its_candidates(vector: Record) -> None:
-    assert message_of(vector["command"]) in dcon.candidates(wire(vector, "command"))
+def test_a_command_is_among_its_meanings(vector: Record) -> None:
+    assert message_of(vector["command"]) in [it.message for it in meanings(wire(vector, "command"))]
 
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
@@ -55,8 +55,8 @@ def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
 
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
-def test_a_response_is_among_its_candidates(vector: Record) -> None:
-    assert message_of(vector["response"]) in response_candidates(wire(vector, "response"))
+def test_a_response_is_among_its_meanings(vector: Record) -> None:
+    assert message_of(vector["response"]) in [it.message for it in meanings(wire(vector, "response"))]
 
 
 @pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))

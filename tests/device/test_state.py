@@ -12,6 +12,7 @@ import pytest
 from attrs import evolve, exceptions
 
 from i7000 import (
+    ArgumentError,
     BaudRate,
     DataFormat,
     EncodeError,
@@ -27,7 +28,20 @@ from i7000 import (
     device,
 )
 from i7000.availability import Availability
-from i7000.device import OPEN_WIRE, Eeprom, Log, Signal, Signals, State, advance, factory, power_on, step
+from i7000.device import (
+    CAPACITY,
+    OPEN_WIRE,
+    Eeprom,
+    Log,
+    Record,
+    Signal,
+    Signals,
+    State,
+    advance,
+    factory,
+    power_on,
+    step,
+)
 from i7000.device.measurement import fields, words
 from i7000.device.state import NEWEST
 from i7000.models import CONFIGURABLE
@@ -104,17 +118,21 @@ def test_what_no_module_can_have_stored_is_refused(model: Model, changes: dict[s
         evolve(factory(model), **changes)
 
 
+@pytest.mark.parametrize("change", [State.keep, lambda state, **changes: evolve(state.ram, **changes)])
 @pytest.mark.parametrize(
     ("name", "value"),
     [
+        ("address", 256),
+        ("checksum", 1),
+        ("sampled", ((TypeCode.K, 1.0),)),
         *[(name, value) for name in ("fed_at", "soft_init_until") for value in (math.nan, math.inf, True)],
         ("held_cold_junction", math.nan),
         *[("soft_init_timeout", value) for value in (-5, 256, True)],
     ],
 )
-def test_what_no_module_can_hold_in_its_ram_is_refused(name: str, value: Any) -> None:
+def test_what_no_module_can_hold_in_its_ram_is_refused(change: Callable[..., object], name: str, value: Any) -> None:
     with pytest.raises(EncodeError, match=f"{name} cannot be"):
-        evolve(power_on(factory(Model.M_7019R), now=0.0).ram, **{name: value})
+        change(power_on(factory(Model.M_7019R), now=0.0), **{name: value})
 
 
 @pytest.mark.parametrize("name", ["clock_offset", "next_at"])
@@ -122,6 +140,40 @@ def test_what_no_module_can_hold_in_its_ram_is_refused(name: str, value: Any) ->
 def test_a_log_has_no_time_that_is_not_finite(name: str, value: Any) -> None:
     with pytest.raises(EncodeError, match=f"{name} cannot be .*: a finite number of seconds"):
         Log(**{name: value})
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        *[("command", value) for value in (1, "STOP", None)],
+        ("overwrite", 1),
+        *[("period", value) for value in ((0, 60, 0), (25, 0, 0), (0, 0), [0, 0, 1], (0, 0, 1.0), (0, 0, True), 10)],
+        *[(name, (2021, 2, 32, 0, 0, 0)) for name in ("start", "end")],
+        *[("start", value) for value in ((1999, 12, 31, 23, 59, 59), (2160, 1, 1, 0, 0, 0), (2021, 1, 1), "2021")],
+        *[(name, value) for name in ("read_index", "last_index") for value in (-1, 1 << 32, 1.0, True, None)],
+        ("records", [Record(1, (0,) * 16, 0)]),
+        ("records", (1,)),
+        ("records", (Record(1, (0,) * 16, 0),) * (CAPACITY + 1)),
+    ],
+    ids=lambda it: it if isinstance(it, str) else repr(it)[:20],
+)
+def test_what_no_data_logger_can_have_stored_is_refused(name: str, value: Any) -> None:
+    with pytest.raises(EncodeError, match=f"^{name} cannot be "):
+        Log(**{name: value})
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        *[(name, value) for name in ("index", "time") for value in (-1, 1 << 32, 1.5, False, "1")],
+        *[("words", value) for value in ([0], (0x10000,), (-1,), (1.0,), (True,), None)],
+    ],
+)
+def test_what_no_record_can_hold_is_refused(name: str, value: Any) -> None:
+    fields: dict[str, Any] = {"index": 1, "words": (0,), "time": 0}
+
+    with pytest.raises(EncodeError, match=f"^{name} cannot be "):
+        Record(**fields | {name: value})
 
 
 def test_a_state_is_frozen_and_keeps_its_profile() -> None:
@@ -172,10 +224,17 @@ def test_what_no_module_can_have_stored_is_not_stored() -> None:
             state.store(**changes)
     with pytest.raises(EncodeError, match="type_codes"):
         power_on(factory(Model.M_7017Z), now=0.0).store(type_codes=(*[TypeCode.V_10] * 19, TypeCode.K))
-    with pytest.raises(TypeError, match="colour"):
-        state.store(colour="red")
-    with pytest.raises(TypeError, match="colour"):
-        state.keep(colour="red")
+
+
+@pytest.mark.parametrize("changes", [{"colour": "red"}, {"address": 5, "colour": 1}, {"model": Model.M_7018, "a": 1}])
+@pytest.mark.parametrize("change", [State.store, State.keep])
+def test_a_field_that_a_module_does_not_have_cannot_be_changed(
+    change: Callable[..., State], changes: dict[str, Any]
+) -> None:
+    state = power_on(factory(Model.M_7019R), now=0.0)
+
+    with pytest.raises(ArgumentError, match=r"^(Eeprom|Ram) has no (colour|a|model): (model|address), "):
+        change(state, **changes)
 
 
 def test_a_change_of_the_firmware_changes_the_profile() -> None:

@@ -21,6 +21,10 @@ def _dots(wire: bytes) -> str:
     return "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in wire)
 
 
+def _shown(byte: int) -> str:
+    return chr(byte) if 0x21 <= byte < 0x7F else ""
+
+
 _C_ESCAPES = {7: r"\a", 8: r"\b", 9: r"\t", 10: r"\n", 11: r"\v", 12: r"\f", 13: r"\r", 27: r"\e", 34: r"\"", 92: r"\\"}
 
 
@@ -76,6 +80,19 @@ BYTES: Final[dict[str, Spelling]] = {
     "decimal, three digits": _joined(" ", "%03d"),
     "ModScan": _joined("", "[%03d]"),
     "hex without zeros": _joined(" ", "%x"),
+    "JSON of node": lambda wire: f'{{"type":"Buffer","data":[{",".join(map(str, wire))}]}}',
+    "Node-RED": lambda wire: f"buffer[{len(wire)}] [{', '.join(map(hex, wire))}]",
+    "Java, signed": lambda wire: str([byte - 256 if byte > 127 else byte for byte in wire]),
+    "Go": lambda wire: f"[]byte{{{', '.join(map(hex, wire))}}}",
+    "Rust, a string": lambda wire: f'b"{_in_c(wire)}"',
+    "IEC 61131": _joined(", ", "16#%02X"),
+    "slsnif": lambda wire: " ".join(f"{_shown(byte)}({byte:02x})" for byte in wire),
+    "text in brackets": lambda wire: " ".join(f"0x{byte:02X}({_shown(byte) or '.'})" for byte in wire),
+    "the CRC apart": lambda wire: f"{wire[:-2].hex(' ')} CRC: {wire[-2:].hex(' ')}",
+    "a length before": lambda wire: f"{len(wire)} {wire.hex(' ')}",
+    "minimalmodbus": lambda wire: f"{wire.decode('latin-1')!r} ({wire.hex(' ').upper()})",
+    "Portmon": lambda wire: f"IRP_MJ_WRITE\tVCP0\tSUCCESS\tLength {len(wire)}: {wire.hex(' ').upper()} \t",
+    "QModMaster": lambda wire: f"[RTU]>Tx > 12:00:01:123 - {wire.hex(' ').upper().replace(' ', '  ')}  ",
     "hexdump": lambda wire: f"00000000  {wire.hex(' ')}  |{_dots(wire)}|",
     "xxd": lambda wire: f"00000000: {_words(wire)}  {_dots(wire)}",
     "tshark": lambda wire: f"0000  {wire.hex(' ')}   {_dots(wire)}",
@@ -83,12 +100,12 @@ BYTES: Final[dict[str, Spelling]] = {
 }
 """The bytes of a frame of either protocol."""
 
-COLUMNS: Final = frozenset({"hexdump", "xxd", "tshark", "a sniffer"})
+COLUMNS: Final = frozenset({"hexdump", "xxd", "tshark", "a sniffer", "a length before"})
 """Spellings that take a whole line."""
 
 ENDS: Final = (
-    "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", "<0d>", "<0D>",
-    "<0x0D>", "{0D}", "[0D]",
+    "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", " <CR>", " (cr)",
+    "<0d>", "<0D>", "<0x0D>", "{0D}", "[0D]",
     "[0d][0a]", "^M", "^M^J", "#13", "&#13;", "%0D", r"\x0D", r"\x0d", r"\015", r"\0D", r"\u000d",
     "\u240d", "\u21b5",
 )  # fmt: skip
@@ -104,7 +121,12 @@ TEXTS: Final[dict[str, Spelling]] = {
     **{f"a string {end}": lambda wire, end=end: f'"{_text(wire)}{end}"' for end in ENDS},  # type: ignore[misc]
     "strace": lambda wire: rf'write(3, "{_text(wire)}\r", {len(wire)}) = {len(wire)}',
     "LabVIEW": lambda wire: _text(wire).replace(" ", r"\s") + r"\r",
-    "HTML": lambda wire: _text(wire).replace(">", "&gt;"),
+    "HTML": lambda wire: f"<td>{_text(wire).replace('>', '&gt;')}</td>",
+    "XML": lambda wire: f"<frame>{_text(wire).replace('>', '&gt;')}&#13;</frame>",
+    "a sum of strings": lambda wire: f'Write("{_text(wire)}" + "\\r")',
+    "Python, a sum": lambda wire: rf'write(b"{_text(wire)}" + b"\r")',
+    "SQL": lambda wire: f"VALUES ('TX', '{_text(wire)}');",
+    "Markdown": lambda wire: f"| `{_text(wire)}` |",
 }
 """A DCON frame as text."""
 
@@ -135,3 +157,48 @@ WITHOUT_FRAMES: Final = (
     "0000", "deadbeef", "port closed (errno 5)", "timeout after 1000 ms!", "-> <- => >>> <<<",
     "192.168.0.7:502 connected",
 )  # fmt: skip
+
+
+def rows(wire: bytes, width: int = 16) -> list[tuple[int, bytes]]:
+    """Cut a frame into rows, with the offset of each."""
+    return [(at, wire[at : at + width]) for at in range(0, len(wire), width)]
+
+
+def _halves(row: bytes) -> str:
+    return f"{row[:8].hex(' ')}  {row[8:].hex(' ')}"
+
+
+DUMPS: Final[dict[str, Callable[[bytes], list[str]]]] = {
+    "hexdump -C": lambda wire: [
+        *(f"{at:08x}  {_halves(row):48}  |{_dots(row)}|" for at, row in rows(wire)),
+        f"{len(wire):08x}",
+    ],
+    "xxd": lambda wire: [f"{at:08x}: {_words(row):39}  {_dots(row)}" for at, row in rows(wire)],
+    "od -tx1": lambda wire: [*(f"{at:07o} {row.hex(' ')}" for at, row in rows(wire)), f"{len(wire):07o}"],
+    "tshark -x": lambda wire: [f"{at:04x}  {_halves(row):48}   {_dots(row)}" for at, row in rows(wire)],
+    "socat -x": lambda wire: [
+        f"> 2026/11/30 12:00:01.000123456  length={len(wire)} from=0 to={len(wire) - 1}",
+        *(f" {row.hex(' '):48} {_dots(row)}" for _, row in rows(wire)),
+        "--",
+    ],
+    "jpnevulator": lambda wire: [
+        "2026-11-30 12:00:01.123456: ttyS0",
+        *(f"{row.hex(' ').upper():48} {_dots(row)}" for _, row in rows(wire)),
+    ],
+    "Serial Port Monitor": lambda wire: [
+        "[12:00:01] Written data (COM3)   ",
+        *(f"    {row.hex(' '):48}   {_dots(row)}   " for _, row in rows(wire)),
+    ],
+    "Format-Hex": lambda wire: [
+        "           00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F",
+        "",
+        *(f"{at:08X}   {row.hex(' ').upper():48} {_dots(row)}" for at, row in rows(wire)),
+    ],
+    "Saleae": lambda wire: [
+        "Time [s],Value,Parity Error,Framing Error",
+        *(f"{at / 1000:.9f},0x{wire[at]:02X},," for at in range(len(wire))),
+    ],
+    "sigrok": lambda wire: [f"uart-1: {byte:02X}" for byte in wire],
+    "interceptty": lambda wire: [f"> 0x{byte:02x} ({_shown(byte)})" for byte in wire],
+}
+"""Spellings in which a frame takes several lines."""

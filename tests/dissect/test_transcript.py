@@ -4,13 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import modbus
-from i7000.dissect.finder import Kind
+from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
-from tests.dissect.spellings import BEFORE, WITHOUT_FRAMES
-
-REQUEST = modbus.seal(bytes.fromhex("010400000001"))
-RESPONSE = modbus.seal(bytes.fromhex("0104020b61"))
+from tests.dissect.frames import DCON, MODBUS, REQUEST, RESPONSE
+from tests.dissect.spellings import BEFORE, DUMPS, WITHOUT_FRAMES
 
 
 def pieces_of(*lines: str) -> list[Piece]:
@@ -26,16 +23,17 @@ def test_an_answer_that_came_in_three_pieces_is_one_frame() -> None:
     assert (response.number, response.last, response.kind, response.wire) == (2, 4, Kind.MODBUS, RESPONSE)
 
 
-def test_a_report_in_several_rows_of_a_dump_is_one_frame() -> None:
-    wire = b">+0025.1+0025.3+0024.9+9999.9-0003.2+0101.7       +0025.0\r"
-    rows = [
-        f"{wire[at : at + 16].hex(' ')}    {wire[at : at + 16].decode().replace(chr(13), '.')}"
-        for at in range(0, len(wire), 16)
-    ]
+@pytest.mark.parametrize("name", DUMPS)
+def test_a_frame_in_a_dump_of_several_lines_is_one_frame(name: str) -> None:
+    found = {wire: [it.wire for it in pieces_of(*DUMPS[name](wire)) if it.kind] for wire in MODBUS + DCON}
 
-    (report,) = pieces_of(*rows)
+    assert found == {wire: [wire] for wire in MODBUS + DCON}
 
-    assert (report.number, report.last, report.kind, report.wire) == (1, 4, Kind.DCON, wire)
+
+def test_two_frames_in_dumps_are_two() -> None:
+    lines = [line for wire in (REQUEST, RESPONSE) for line in DUMPS["hexdump -C"](wire)]
+
+    assert [it.wire for it in pieces_of(*lines) if it.kind] == [REQUEST, RESPONSE]
 
 
 def test_noise_before_a_cut_frame_stays_a_piece_of_its_own() -> None:
@@ -91,3 +89,22 @@ def test_a_line_without_a_frame_is_a_piece_without_one(text: str) -> None:
     (piece,) = pieces_of(text)
 
     assert (piece.kind, piece.wire, piece.text) == (None, b"", text)
+
+
+def test_a_part_before_a_line_with_a_frame_stays_a_piece_of_its_own() -> None:
+    part, command, other, response = pieces_of("RX 01 04 02", "$012", "RX 01 04 02", "ok 24 30 31 32 0D ok")
+
+    assert (part.kind, command.wire, other.kind, response.wire) == (None, b"$012\r", None, b"$012\r")
+
+
+def test_noise_behind_a_cut_frame_is_no_part_of_it() -> None:
+    found = pieces_of("RX 01 04 00 00 00 01", "RX 31 CA FF", "port closed")
+
+    assert [(it.number, it.wire) for it in found] == [(1, REQUEST[:6]), (2, b""), (3, b"")]
+
+
+def test_parts_longer_than_a_frame_are_given_up_from_the_first_on() -> None:
+    begun = "RX 01 10 00 00 00 7B F6 00"
+    found = pieces_of(begun, *["00 " * 100] * 3, "RX 01 04 00 00", "00 01 31 CA")
+
+    assert (found[-1].number, found[-1].last, found[-1].wire) == (5, 6, REQUEST)

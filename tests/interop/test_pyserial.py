@@ -1,8 +1,6 @@
 """pyserial on a pseudo-terminal and by RFC 2217: dialogues in DCON, by hand, most of them those of the manual."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from functools import partial
+from collections.abc import Sequence
 from time import sleep
 from typing import Any
 
@@ -11,13 +9,10 @@ import serial
 
 from i7000 import BaudRate, CharacterFormat, DataFormat, LineSettings, Model, Protocol, ReportSettings, TypeCode, Unit
 from i7000.simulator.pseudo_terminal import open_pty
-from i7000.simulator.rfc2217 import Rfc2217Connection
 from i7000.simulator.simulator import Simulated
-from i7000.simulator.tcp import listen
 from tests.interop.scenes import ONE_BUS, SAID_BY_7018, connected
-from tests.simulator.running import Running, Transport, module, running
+from tests.simulator.running import RFC_2217, Transport, module, port, running
 
-RFC_2217 = partial(listen, connection=Rfc2217Connection)
 TRANSPORTS: dict[str, Transport] = {"pty": open_pty, "rfc2217": RFC_2217}
 
 MILLIVOLTS = connected(Unit.MILLIVOLT, (25.12, 20.45, 12.78, 18.97, 3.24, 15.35, 8.07, 14.79), 31.2)
@@ -303,14 +298,6 @@ DIALOGUES: dict[str, tuple[Sequence[Simulated], str]] = {
         """,
     ),
 }  # fmt: skip
-
-
-@contextmanager
-def port(here: Running, scheme: str, **settings: Any) -> Iterator[serial.Serial]:
-    url = here.place if scheme == "pty" else f"{scheme}://{here.place}"
-    opened: Any = serial.serial_for_url(url, timeout=2, **settings)
-    with opened:
-        yield opened
 
 
 def said(opened: serial.Serial, sent: str, *, silence: bool = False) -> str:

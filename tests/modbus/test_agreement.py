@@ -7,7 +7,7 @@ import pytest
 from attrs import fields
 
 from i7000 import Firmware, Model, Profile, Protocol, modbus
-from i7000.modbus.layout import MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS
+from i7000.modbus.items import MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS
 from i7000.modbus.registers import rows as rows_of
 from tests.spec.lint import Record, load, rows, table_files
 from tests.vectors import MODBUS_MESSAGES, modbus_message_of

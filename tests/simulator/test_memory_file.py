@@ -1,6 +1,7 @@
 """The file of a memory: how it is written, and who may use it."""
 
 import errno
+import fcntl
 import os
 import stat
 import subprocess
@@ -14,7 +15,7 @@ from attrs import evolve
 from i7000.device import CAPACITY, Log, Record
 from i7000.simulator import memory
 from i7000.simulator.memory import MemoryFileError, held, load, save
-from tests.simulator.eeproms import MODULES, RECORD
+from tests.simulator.eeproms import MODULES
 
 
 @pytest.fixture
@@ -74,22 +75,14 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(
     assert list(path.parent.iterdir()) == [path]
 
 
-@pytest.mark.parametrize(
-    ("wrong", "place"),
-    [
-        (Log(period=(0, 60, 0)), "period"),
-        (Log(records=(RECORD,) * (CAPACITY + 1)), "records"),
-        (Log(records=(Record(1, (0,) * 15, 0),)), "records[0].words"),
-    ],
-    ids=["no period", "too many", "too few"],
-)
-def test_what_could_not_be_loaded_is_not_saved(path: Path, wrong: Log, place: str) -> None:
+def test_what_could_not_be_loaded_is_not_saved(path: Path) -> None:
     save(path, MODULES)
+    of_15_channels = Log(records=(Record(1, (0,) * 15, 0),))
 
     with pytest.raises(MemoryFileError) as caught:
-        save(path, [MODULES[0], evolve(MODULES[1], log=wrong)])
+        save(path, [MODULES[0], evolve(MODULES[1], log=of_15_channels)])
 
-    assert caught.value.place == f"modules[1].log.{place}"
+    assert caught.value.place == "modules[1].log.records[0].words"
     assert load(path) == MODULES
     assert list(path.parent.iterdir()) == [path]
 
@@ -212,6 +205,35 @@ def test_a_file_is_used_by_one_simulator_at_a_time(path: Path) -> None:
     assert str(refused.value) == (
         f"{link}: the file itself: is used by another simulator; allowed: one simulator a file"
     )
+
+
+def test_a_file_that_cannot_be_locked_is_not_said_to_be_used(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", fail)
+    with pytest.raises(OSError, match=r"cannot be locked by .bus.json.lock beside it: No locks available") as failed:
+        hold(path)
+
+    assert failed.value.filename == str(path)
+
+
+def test_a_lock_that_cannot_be_made_is_named(path: Path) -> None:
+    path.with_name(".bus.json.lock").mkdir()
+
+    with pytest.raises(IsADirectoryError, match=r"cannot be locked by .bus.json.lock beside it: .*: '.*bus.json'$"):
+        hold(path)
+
+
+def test_a_hard_link_is_a_file_of_its_own_once_it_is_saved(path: Path) -> None:
+    save(path, MODULES)
+    link = path.with_name("link.json")
+    link.hardlink_to(path)
+
+    with held(path), held(link):
+        save(link, MODULES[:1])
+
+        assert (load(path), load(link)) == (MODULES, MODULES[:1])
 
 
 def test_the_lock_of_a_process_that_was_killed_is_gone(path: Path) -> None:

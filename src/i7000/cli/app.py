@@ -22,7 +22,8 @@ __all__ = ["app", "run"]
 app = App(
     name="i7000",
     help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written."
-    "\n\nExit codes besides those of each command: 130 after Ctrl-C, 141 if nobody reads the output to its end.",
+    "\n\nExit codes besides those of each command: 2 if the output cannot be written, 130 after Ctrl-C, 141 if nobody"
+    " reads the output to its end.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
@@ -35,8 +36,7 @@ for _command in (decode, encode, commands, registers, errata, simulate):
 def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
     """Complete commands and options in a shell, from its next start on. Example: `i7000 --install-completion bash`."""
     file = app.install_completion(shell=shell)
-    with Printer() as printer:
-        printer.record({}, [[(f"{file} is read by {shell} from its next start on", "")]])
+    Printer().record({}, [[(f"{file} is read by {shell} from its next start on", "")]])
     return 0
 
 
@@ -44,9 +44,7 @@ def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and tell the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
         return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
@@ -58,4 +56,3 @@ def run(arguments: Sequence[str] | None) -> int:
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
-    return code

@@ -11,13 +11,13 @@ from typing import Any
 from i7000 import EncodeError, LineSettings, TypeCode, modbus
 from i7000.cli.choices import chosen
 from i7000.cli.numbers import hex_byte, integer, is_hex
-from i7000.cli.records import message_fields
+from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import Scale, counts
 from i7000.cli.words import UsageError, near, truth, type_code
 from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
-from i7000.modbus.layout import MOST_BITS
+from i7000.modbus.items import MOST_BITS
 
 __all__ = ["AREAS", "held", "is_of_registers", "is_reading"]
 
@@ -46,7 +46,7 @@ def is_of_registers(kind: type[Message]) -> bool:
 
 def is_reading(kind: type[Message]) -> bool:
     """Return whether such a request reads; else it writes."""
-    return "count" in message_fields(kind)
+    return "count" in parts_of(kind)
 
 
 def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
@@ -56,7 +56,7 @@ def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | No
         Without a map, nothing is taken.
     Errors: `UsageError` for what cannot be understood, `EncodeError` for what the module does not have or take.
     """
-    field = next(name for name in message_fields(kind) if name in _PLACES)
+    field = next(name for name in parts_of(kind) if name in _PLACES)
     if registers is None:
         if not _is_number(given.get(field, "")):
             raise UsageError(f"{field}: {given[field]!r} is not a number, and names of registers need --model")
@@ -154,7 +154,7 @@ def _written(kind: type[Message], start: int, texts: list[str], registers: Regis
     items: list[int] = []
     for text in texts:
         items.extend(_items(kind, start + len(items), text.strip(), registers))
-    if "values" in message_fields(kind):
+    if "values" in parts_of(kind):
         return tuple(items)
     if len(items) > 1:
         raise UsageError(f"value: {len(items)} registers are written here: {_SEVERAL[kind].__name__} does that")

@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000 import Model, Profile, dcon, modbus
-from i7000.cli import rtu_records
 from i7000.cli.explain import AnyCommand, command_explained, commands_named
 from i7000.cli.explain_text import command_text
 from i7000.cli.options import Json, Module
@@ -54,7 +53,7 @@ def commands(
     settings), `minimum`, `maximum`, `unit`, `scale`, `meaning`), `pause` (as in spec), `broadcast`, `exceptions`,
     `examples` and `refused` (vectors of spec), `errata_explained`.
     """
-    known = Module(model=model, firmware=firmware).known()
+    known = Module(model=() if model is None else (model,), firmware=firmware).known()
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
     kinds = _KINDS[protocol] if name or protocol != "auto" else dcon.COMMANDS
     chosen = commands_named(name, kinds) if name else kinds
@@ -62,19 +61,16 @@ def commands(
     if not any(having.values()):
         raise UsageError(f"{model} has no {' or '.join(sorted({kind.__name__ for kind in chosen}))}")
     shown: set[str] = set()
-    with Printer(json=json) as printer:
-        for kind, models in having.items():
-            if name and models and len(chosen) <= _MOST_EXPLAINED:
-                record = command_explained(kind, models)
-                printer.record(record, command_text(record, shown))
-            elif models:
-                printer.record(*_listed(kind, models))
+    printer = Printer(json=json)
+    for kind, models in having.items():
+        if name and models and len(chosen) <= _MOST_EXPLAINED:
+            record = command_explained(kind, models)
+            printer.record(record, command_text(record, shown))
+        elif models:
+            printer.record(*_listed(kind, models))
     return 0
 
 
 def _listed(command: AnyCommand, models: list[str]) -> tuple[Record, Iterable[Line]]:
-    if issubclass(command, modbus.Request):
-        record = rtu_records.request_record(command, models)
-        return record, request_lines(record)
     record = command_record(command, models)
-    return record, command_lines(record)
+    return record, request_lines(record) if issubclass(command, modbus.Request) else command_lines(record)

@@ -5,26 +5,30 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from i7000.cli import rtu_records
-from i7000.cli.hex_lines import numbered_hex_pieces
-from i7000.cli.log import numbered_pieces
-from i7000.cli.options import UNKNOWN, Json, Module, ProtocolName
-from i7000.cli.records import line_records
+from i7000.cli.options import UNKNOWN, Json, Module
+from i7000.cli.records import Record, frameless_record, heard_record
 from i7000.cli.source import LONGEST_LINE, Counted, Lines
 from i7000.cli.text import Printer, frame_lines
 from i7000.cli.words import UsageError
+from i7000.dissect import Heard, Kind, Knowledge, Piece, Place, hear_frame, pieces
+from i7000.dissect import Line as Listener
+from i7000.dissect.stream import looks_like
+from i7000.settings import Protocol
 
-__all__ = ["decode"]
+__all__ = ["decode", "records"]
+
+_PROTOCOLS: dict[str, Protocol | None] = {"auto": None, "dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
 
 
 def decode(
     *frames: Annotated[str, Parameter(help="Frames; without any, the lines of --file or of standard input.")],
     file: Annotated[Path | None, Parameter(help="A log; - is standard input.", allow_leading_hyphen=True)] = None,
-    protocol: ProtocolName = "dcon",
+    protocol: Annotated[Literal["auto", "dcon", "rtu"], Parameter(help="DCON, Modbus RTU, or both.")] = "auto",
+    strict: Annotated[bool, Parameter(help="Lines without a frame are not understood either.", negative="")] = False,
     json: Json = False,
     module: Module = UNKNOWN,
 ) -> int:
@@ -53,28 +57,49 @@ def decode(
       its factory default), `note` (what else is to be known);
     * if it has more: `candidates`, objects with the keys of a meaning.
     """
-    known = module.known(protocol)
-    count = 0
+    knowledge = Knowledge.given(module.known(protocol))
+    count = framed = 0
     wrong = Counted()
-    with Printer(json=json) as printer, _source(frames, file, printer) as lines:
-        records = (
-            rtu_records.line_records(numbered_hex_pieces(lines), known)
-            if protocol == "rtu"
-            else line_records(numbered_pieces(lines), known)
-        )
-        for record in records:
+    printer = Printer(json=json)
+    with _source(frames, file, printer) as lines:
+        texts = ((number, text.decode("utf-8", "surrogateescape")) for number, text in lines)
+        for record, heard in records(texts, knowledge, _PROTOCOLS[protocol]):
             count += 1
-            if record["error"]:
+            framed += heard is not None
+            if strict if heard is None else not heard.understood:
                 wrong.add(record["line"])
-            printer.record(record, frame_lines(record, models=known.model is None))
+            unknown = heard is not None and knowledge.of(heard.address).known.model is None
+            printer.record(record, frame_lines(record, None if heard is None else heard.answers, models=unknown))
     long = lines.long if isinstance(lines, Lines) else Counted()
     if not count:
         printer.error("there was nothing to decode")
+    elif not framed:
+        printer.error("there is no frame in it")
     if long.count:
         printer.error(f"{long.count} too long, read in pieces of {LONGEST_LINE} bytes that may cut frames: line {long}")
     if wrong.count:
         printer.error(f"{wrong.count} not understood: line {wrong}")
-    return 1 if wrong.count or long.count else 0
+    return 1 if wrong.count or long.count or (count and not framed) else 0
+
+
+def records(
+    lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: Protocol | None
+) -> Iterator[tuple[Record, Heard | None]]:
+    """Yield a record for each frame of a log, and for each line without one."""
+    line = Listener(knowledge, protocol)
+    for number, piece in enumerate(pieces(lines, protocol), 1):
+        if piece.kind is None:
+            yield frameless_record(number, piece), None
+            continue
+        place = Place(number, f"line {piece.number}")
+        line, heard = hear_frame(line, piece.wire, _protocol_of(piece) if protocol is None else protocol, place)
+        yield heard_record(piece, heard), heard
+
+
+def _protocol_of(piece: Piece) -> Protocol:
+    if piece.kind is Kind.DAMAGED:
+        return looks_like(piece.wire)
+    return Protocol.DCON if piece.kind is Kind.DCON else Protocol.MODBUS_RTU
 
 
 @contextmanager

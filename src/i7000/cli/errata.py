@@ -28,7 +28,7 @@ def errata(
     JSON keys: `id`, `sections`, `what`, `reading`, `assumption` (whether the manual does not support the reading by
     itself), `evidence`, `used_by`.
     """
-    with Printer(json=json) as printer:
-        for row in facts.errata().values() if name is None else errata_named(name):
-            printer.record(row, erratum_lines(row) if name is None else erratum_text(row))
+    printer = Printer(json=json)
+    for row in facts.errata().values() if name is None else errata_named(name):
+        printer.record(row, erratum_lines(row) if name is None else erratum_text(row))
     return 0

@@ -18,9 +18,7 @@ from i7000 import (
 from i7000.cli import facts
 from i7000.cli.by_register import AREAS, is_reading
 from i7000.cli.numbers import integer, is_hex
-from i7000.cli.records import Record, command_record, message_fields
-from i7000.cli.registers import register_record
-from i7000.cli.rtu_records import request_record
+from i7000.cli.records import Record, command_record, parts_of, register_record
 from i7000.cli.words import UsageError, near
 from i7000.message import Message
 
@@ -91,7 +89,7 @@ def command_explained(kind: AnyCommand, models: list[str]) -> Record:
     """A command or request in full: the keys of a listed one, and more."""
     row = facts.command_row(kind)
     if issubclass(kind, modbus.Request):
-        listed, protocol, side = request_record(kind, models), "rtu", "request"
+        listed, protocol, side = command_record(kind, models), "rtu", "request"
     else:
         listed, protocol, side = command_record(kind, models), "dcon", "command"
     response = getattr(kind, "response", None)
@@ -118,8 +116,7 @@ def _parameters(kind: type[Message], rows: list[Record]) -> list[Record]:
     """The fields of a message: what the tables say, and what the class does."""
     stated = {row["name"]: row for row in rows}
     return [
-        _parameter(name, field.type.__metadata__[0], stated.get(name, {}))
-        for name, field in message_fields(kind).items()
+        _parameter(name, field.type.__metadata__[0], stated.get(name, {})) for name, field in parts_of(kind).items()
     ]
 
 

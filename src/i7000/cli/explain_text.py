@@ -5,9 +5,9 @@ from shutil import get_terminal_size
 from textwrap import wrap
 
 from i7000 import Model
-from i7000.cli.dcon import scope
 from i7000.cli.records import Record
 from i7000.cli.text import Line
+from i7000.dissect.words import models_words
 
 __all__ = ["command_text", "erratum_lines", "erratum_text", "register_text"]
 
@@ -91,7 +91,7 @@ def _range(parameter: Record) -> str:
 def _models(record: Record) -> str:
     """The models that have a command, those that have it only from some firmware on with that."""
     since = [f"{model} from {firmware}" for model, firmware in record["models"].items() if firmware]
-    named = scope(map(Model, record["models"]), record["section"])
+    named = models_words(map(Model, record["models"]), record["section"])
     return f"{named}: {', '.join(since)}" if since and " from " not in named else named
 
 

@@ -13,15 +13,15 @@ from typing import Any, get_args
 from attrs import evolve
 
 from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
-from i7000.cli import rtu
 from i7000.cli.by_register import held, is_of_registers
 from i7000.cli.choices import chosen
-from i7000.cli.dcon import Known, scope
 from i7000.cli.numbers import hex_byte, integer
-from i7000.cli.records import message_fields
+from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
 from i7000.cli.words import UsageError, baud_rate, near, truth, type_code
+from i7000.dissect import Known
+from i7000.dissect.words import models_words
 from i7000.message import Message
 
 __all__ = ["DCON", "MODBUS", "encode", "find", "frame_text", "make", "refusal_words", "registers"]
@@ -44,7 +44,7 @@ def registers(known: Known) -> modbus.RegisterMap | None:
 
     Errors: `UsageError` if it does not speak Modbus.
     """
-    return modbus.RegisterMap(rtu.profiles(_decided(known))[0]) if known.model else None
+    return modbus.RegisterMap(_decided(known).modbus[0]) if known.model else None
 
 
 def _decided(known: Known) -> Known:
@@ -58,10 +58,8 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
     Errors: `EncodeError` if no module takes it, `UsageError` if the frame depends on the model.
     """
     known = _decided(known)
-    if isinstance(message, modbus.Message):
-        profiles = rtu.profiles(known)
-    else:
-        profiles = (known.default,) if known.default else known.all
+    by_dcon = (known.default,) if known.default else known.all
+    profiles = known.modbus if isinstance(message, modbus.Message) else by_dcon
     frames: dict[bytes, list[Profile]] = {}
     refusals: list[tuple[Profile, EncodeError]] = []
     for profile in profiles:
@@ -75,7 +73,7 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
     first, *others = frames
     if others:
         ways = "; ".join(
-            f"{frame_text(message, frame)} for {scope((profile.model for profile in found), '')}"
+            f"{frame_text(message, frame)} for {models_words((profile.model for profile in found), '')}"
             for frame, found in frames.items()
         )
         raise UsageError(f"the frame depends on the model, give --model: {ways}")
@@ -99,7 +97,7 @@ def refusal_words(refusal: EncodeError, kind: type[Message], assignments: Sequen
     field = refusal.field
     if field not in written:
         return str(refusal)
-    scale = scale_of(kind, field, channel=written.get("channel", "0") != "0") if field in message_fields(kind) else None
+    scale = scale_of(kind, field, channel=written.get("channel", "0") != "0") if field in parts_of(kind) else None
     said = scale is None or scale.unit in refusal.allowed
     also = "" if scale is None or said else f", counts of {1 / scale.per_unit:g} {scale.unit}"
     return str(as_written(refusal, field, written[field], also))
@@ -127,7 +125,7 @@ def make(
     given = _given(kind, assignments)
     values = held(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
-    for field, attribute in message_fields(kind).items():
+    for field, attribute in parts_of(kind).items():
         part = _PARTS.get(field)
         if part and not given.keys().isdisjoint((field, *part)):
             values[field] = _assemble(field, part, given)
@@ -144,7 +142,7 @@ def make(
 
 def _writing(kind: type[Message], field: str) -> str:
     """Return how the values of a field are written."""
-    values, part = get_args(message_fields(kind)[field].type)
+    values, part = get_args(parts_of(kind)[field].type)
     scale = scale_of(kind, field, channel=False)
     how: str = "with commas between" if values in _LISTS else part.allowed.replace("00..FF", "0..255 or 00h..FFh")
     if field in _PARTS:
@@ -162,7 +160,7 @@ def _writing(kind: type[Message], field: str) -> str:
 
 def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
     """Read ``field=value``: what is given for each field, or part of a field."""
-    known = [one for field in message_fields(kind) for one in (field, *_PARTS.get(field, ()))]
+    known = [one for field in parts_of(kind) for one in (field, *_PARTS.get(field, ()))]
     given: dict[str, str] = {}
     for assignment in assignments:
         field, equals, value = assignment.partition("=")

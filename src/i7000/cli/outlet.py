@@ -41,7 +41,22 @@ class Outlet:
         stands where they would have been.
     """
 
-    def __init__(self, file: IO[str], *, most: int = MOST_WAITING, counted: bool = True) -> None:
+    def __init__(
+        self,
+        file: IO[str],
+        *,
+        most: int = MOST_WAITING,
+        counted: bool = True,
+        report: Callable[[OSError], object] | None = None,
+    ) -> None:
+        """Write to `file`; `report` is called, in another thread, with what makes that fail, as a full disk does.
+
+        Special: a pipe that nobody reads and a terminal that is gone are no failures.
+        """
+        self.failed = False
+        """Whether `report` was called."""
+        self._report = report
+        self._terminal = file.isatty()
         self._most = most
         self.encoding: str = getattr(file, "encoding", None) or "utf-8"
         self.isatty = file.isatty
@@ -106,8 +121,14 @@ class Outlet:
             text = self._waiting[0] if self._waiting else f"{missed_words(missed)}\n" if self._counted else ""
         try:
             self._put(text)
-        except (OSError, ValueError):  # Nobody reads it any more.
+        except ValueError:  # It was closed.
             self._gone = True
+        except OSError as error:
+            self._gone = True
+            if not (self._terminal or isinstance(error, BrokenPipeError)):
+                self.failed = True
+                if self._report:
+                    self._report(error)
         with self._changed:
             if missed:
                 self._missed -= missed

@@ -1,96 +1,158 @@
-"""Meanings as records: what ``--json`` writes and `text` prints.
+"""What was heard, and what commands there are, as records: what ``--json`` writes and `text` prints.
 
 Laws: `fields` are those of the class, numbers as numbers, bytes of settings as one number, as in the vectors of
-``spec``; `explained` says the same in words.
+``spec``; `explained` has the same in words.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from enum import Enum
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 from attrs import fields
 
-from i7000 import DecodeError, Fault, LineSettings, ReportSettings, dcon
-from i7000.cli.dcon import ChannelReading, Known, Meaning, errata, gates, is_command
-from i7000.cli.log import Line
-from i7000.cli.reader import Reader
-from i7000.cli.words import line_settings_words, mask_words, report_settings_words, type_code_words
+from i7000 import LineSettings, ReportSettings, dcon, modbus
+from i7000.dissect import ChannelReading, Heard, Item, Meaning, Piece
+from i7000.dissect.meaning import errata
 from i7000.message import Message
+from i7000.settings import Protocol
 
-__all__ = ["Record", "command_record", "empty_record", "explain", "line_records", "meaning_record", "message_fields"]
+__all__ = [
+    "PROTOCOLS",
+    "SCHEMA_VERSION",
+    "Record",
+    "command_record",
+    "frameless_record",
+    "heard_record",
+    "parts_of",
+    "register_record",
+]
 
 Record = dict[str, Any]
+SCHEMA_VERSION = 1
+PROTOCOLS = {Protocol.DCON: "dcon", Protocol.MODBUS_RTU: "rtu"}
+"""The protocols as the options name them."""
+
+_UNKNOWN: Record = {
+    "name": None, "title": None, "section": None, "syntax": None, "command": None, "fields": {}, "explained": {},
+    "readings": [], "registers": [], "errata": [], "pause": 0.0, "models": [], "checksum": None, "data_formats": [],
+    "assumed": [], "notes": [],
+}  # fmt: skip
+"""A meaning that is unknown: all the keys, and nothing else."""
 
 
-class _Fields(dict[type[Message], dict[str, Any]]):
-    """The fields of message classes, listed when first needed."""
-
-    def __missing__(self, kind: type[Message]) -> dict[str, Any]:
-        listed = {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
-        return self.setdefault(kind, listed)
+def parts_of(kind: type[Message]) -> dict[str, Any]:
+    """Return the fields of a message class with their attrs, whose type has the part of the layout."""
+    return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
 
 
-_FIELDS = _Fields()
+# --- decode -----------------------------------------------------------------------------------------------------------
 
 
-def message_fields(kind: type[Message]) -> Mapping[str, Any]:
-    """List the fields of a message class, and the part of the syntax that each fills."""
-    return _FIELDS[kind]
+def heard_record(piece: Piece, heard: Heard) -> Record:
+    """Return the record of a frame."""
+    meaning = heard.meanings[0] if len(heard.meanings) == 1 else None
+    several = heard.candidates if meaning else (*heard.meanings, *heard.candidates)
+    record = _head(heard.place.number, piece) | {
+        "protocol": PROTOCOLS[heard.protocol],
+        "direction": heard.direction and heard.direction.value,
+        "address": heard.address,
+        "frame": _frame(heard),
+        "wire": heard.wire.hex(),
+        "answers": heard.answers and heard.answers.number,
+    }
+    record |= _UNKNOWN if meaning is None else _meaning_record(meaning, remember=len(heard.wire) <= _SHORT)
+    notes = [*heard.notes, *heard.contradictions]
+    return record | {
+        "notes": notes,
+        "note": "; ".join(notes) or None,
+        "candidates": [meaning_record(candidate) for candidate in several],
+        "contradictions": list(heard.contradictions),
+        "error": None if heard.error is None else str(heard.error),
+        "fault": None if heard.error is None else heard.error.fault.value,
+    }
 
 
-def empty_record() -> Record:
-    """A meaning that is not known: all the keys, and nothing else."""
-    return {
-        "name": None, "title": None, "section": None, "syntax": None, "command": None, "fields": {}, "explained": {},
-        "readings": [], "registers": [], "errata": [], "pause": 0.0, "models": [], "checksum": None, "data_formats": [],
-        "assumed": [], "note": None,
+def frameless_record(number: int, piece: Piece) -> Record:
+    """Return the record of a line without a frame."""
+    return _head(number, piece) | {
+        "protocol": None, "direction": None, "address": None, "frame": None, "wire": None, "answers": None, **_UNKNOWN,
+        "notes": [_NO_FRAME], "note": _NO_FRAME, "candidates": [], "contradictions": [], "error": None, "fault": None,
     }  # fmt: skip
 
 
-def meaning_record(meaning: Meaning) -> Record:
-    """A meaning with all that is told about it."""
-    message, command, fit = meaning.message, meaning.command, meaning.fit
-    kind = type(message)
-    values = {name: getattr(message, name) for name in message_fields(kind)}
-    return empty_record() | {
-        "name": kind.__name__,
-        "title": message.title,
-        "section": command.section if command else message.section,
-        "syntax": message.syntax,
-        "command": type(command).__name__ if command else None,
-        "fields": {name: _plain(value) for name, value in values.items()},
-        "explained": {name: explain(message, name, value) for name, value in values.items() if name not in _READ},
-        "readings": [_reading(reading) for reading in meaning.readings],
-        "errata": list(errata(kind)),
-        "pause": meaning.pause,
-        "models": [model.value for model in fit.models],
-        "checksum": fit.checksum,
-        "data_formats": [data_format.name.lower() for data_format in meaning.data_formats],
-        "assumed": list(meaning.assumed),
-    }
+_NO_FRAME = "no frame in this line"
 
 
-def command_record(command: type[dcon.AnyCommand], models: list[str]) -> Record:
-    """A command as ``i7000 commands`` lists it."""
-    response = command.response if issubclass(command, dcon.Command) else None
-    since = {model.value: firmware and str(firmware) for model, firmware in gates(command.section).items()}
+def _head(number: int, piece: Piece) -> Record:
     return {
-        "section": command.section,
-        "name": command.__name__,
-        "title": command.title,
-        "syntax": command.syntax,
-        "fields": {name: field.type.__metadata__[0].allowed for name, field in message_fields(command).items()},
-        "response": response and response.__name__,
-        "response_syntax": response and response.syntax,
-        "models": {model: since[model] for model in models},
-        "errata": list(errata(command)),
+        "schema_version": SCHEMA_VERSION,
+        "record": number,
+        "line": piece.number,
+        "last_line": piece.last,
+        "text": _shown(piece.text),
     }
+
+
+def _shown(text: str) -> str:
+    """Return a line without its end; bytes that are no UTF-8 are escaped."""
+    return text.rstrip("\r\n").encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+
+
+def _frame(heard: Heard) -> str:
+    """Return a frame as people write it."""
+    if heard.protocol is Protocol.MODBUS_RTU:
+        return heard.wire.hex(" ").upper()
+    return heard.wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+
+
+_REMEMBERED = 256
+"""Meanings of which the records are kept."""
+_SHORT = 128
+"""Bytes of a frame up to which its record is kept: those of a frame full of coils are large."""
+
+
+def _meaning_record(meaning: Meaning, *, remember: bool) -> Record:
+    return _remembered_record(meaning) if remember else meaning_record(meaning)
+
+
+def meaning_record(meaning: Meaning) -> Record:
+    """Return the record of a meaning."""
+    message, command = meaning.message, meaning.command
+    items = [_item(item) for item in meaning.items]
+    shown_elsewhere = _VALUES if items or isinstance(message, dcon.Message) else ()
+    return {
+        "name": type(message).__name__,
+        "title": message.title,
+        "section": meaning.section,
+        "syntax": message.syntax if isinstance(message, dcon.Message) else message.pdu,  # type: ignore[attr-defined]
+        "command": None if command is None else type(command).__name__,
+        "fields": {field.name: _plain(field.value) for field in meaning.fields},
+        "explained": {field.name: field.text for field in meaning.fields if field.name not in shown_elsewhere},
+        "readings": [_reading(reading) for reading in meaning.readings],
+        "registers": items,
+        "errata": list(meaning.errata),
+        "pause": meaning.pause,
+        "models": [model.value for model in meaning.models],
+        "checksum": meaning.checksum,
+        "data_formats": [data_format.name.lower() for data_format in meaning.data_formats],
+        "assumed": [_OPTIONS[name] for name in meaning.assumed],
+        "notes": list(meaning.notes),
+    }
+
+
+_remembered_record = lru_cache(maxsize=_REMEMBERED)(meaning_record)
+_VALUES = ("value", "values")
+"""Fields that readings and registers show."""
+_OPTIONS = {"types": "type", "data_format": "format", "modbus_data_format": "modbus_format"}
+"""The options that say what is assumed."""
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - of any field
     if isinstance(value, LineSettings | ReportSettings):
         return value.byte
+    if isinstance(value, bytes):
+        return value.hex()
     if isinstance(value, tuple):
         return list(value)
     return value.value if isinstance(value, Enum) else value
@@ -108,133 +170,54 @@ def _reading(reading: ChannelReading) -> Record:
     }
 
 
-_REMEMBERED = 256
-"""Exchanges that are not decoded again when they come again."""
-
-
-class _Told(NamedTuple):
-    """What is said of a frame wherever in a log it stands."""
-
-    record: Record
-    answers: bool = False
-    """Whether it answers the command before it."""
-
-
-def line_records(lines: Iterable[Line], known: Known) -> Iterator[Record]:
-    """Yield a record for each frame of a log; a response is decoded with the command before it."""
-    reader = Reader(known)
-
-    @lru_cache(maxsize=_REMEMBERED)
-    def told(frame: bytes, asked: bytes | None) -> _Told:
-        return _told(frame, asked, reader)
-
-    asked: Line | None = None
-    for line in lines:
-        number, text, frame = line
-        if frame is None:
-            yield line_record(number, text, NO_FRAME | {"fault": Fault.LEADING.value})
-            continue
-        command = is_command(frame)
-        record, answers = told(frame, asked.frame if asked and not command else None)
-        yield line_record(
-            number,
-            text,
-            record,
-            direction="command" if command else "response",
-            frame=frame[:-1].decode("ascii", "backslashreplace"),
-            wire=frame.hex(),
-            answers=asked.number if asked and answers else None,
-        )
-        if command:
-            asked = None if record["error"] else line
-        elif answers or not record["error"]:
-            asked = None
-
-
-def line_record(  # noqa: PLR0913 - the keys of a record
-    number: int,
-    text: str,
-    told: Record,
-    *,
-    direction: str | None = None,
-    frame: str | None = None,
-    wire: str | None = None,
-    answers: int | None = None,
-) -> Record:
-    """A record of a line, and of what is told of the frame in it."""
+def _item(item: Item) -> Record:
     return {
-        "line": number, "direction": direction, "text": text, "frame": frame, "wire": wire, "answers": answers, **told,
-    }  # fmt: skip
+        "number": item.number,
+        "name": item.name,
+        "channel": item.channel,
+        "value": item.value,
+        "unit": item.unit,
+        "status": item.reading and item.reading.status.value,
+        "text": item.text,
+    }
 
 
-def told_record(meaning: Record, **told: Any) -> Record:  # noqa: ANN401 - of any key
-    """What is told of a frame: a meaning, and the keys that only a frame has."""
-    return meaning | {"candidates": [], "error": None, "fault": None} | told
+# --- commands ---------------------------------------------------------------------------------------------------------
 
 
-NO_FRAME: Record = told_record(empty_record(), error="no frame in this line")
+def command_record(command: Any, models: Iterable[str]) -> Record:  # noqa: ANN401 - a class of either protocol
+    """Return the record of a command or request, as ``i7000 commands`` lists it."""
+    response = getattr(command, "response", None)
+    since = {model.value: firmware and str(firmware) for model, firmware in command.availability.gates.items()}
+    return {
+        "section": command.section,
+        "name": command.__name__,
+        "title": command.title,
+        "syntax": _syntax(command),
+        "fields": {name: field.type.__metadata__[0].allowed for name, field in parts_of(command).items()},
+        "response": response and response.__name__,
+        "response_syntax": response and _syntax(response),
+        "models": {model: since[model] for model in models},
+        "errata": list(errata(command)),
+    }
 
 
-def _told(frame: bytes, asked: bytes | None, reader: Reader) -> _Told:
-    try:
-        found = reader.meanings(frame, asked)
-    except DecodeError as error:
-        candidates = [] if asked is None else [meaning_record(meaning) for meaning in _alone(frame, reader)]
-        record = told_record(empty_record(), candidates=candidates, error=str(error), fault=error.fault.value)
-        return _Told(record)
-    records = [meaning_record(meaning) for meaning in found]
-    record = told_record(records[0]) if len(records) == 1 else told_record(empty_record(), candidates=records)
-    misfit = found[0].misfit  # of all or of none
-    if misfit:
-        record |= {"error": str(misfit), "fault": misfit.fault.value}
-    return _Told(record, any(meaning.command for meaning in found))
+def _syntax(kind: Any) -> str:  # noqa: ANN401 - a class of either protocol
+    return str(kind.pdu if issubclass(kind, modbus.Message) else kind.syntax)
 
 
-def _alone(frame: bytes, reader: Reader) -> tuple[Meaning, ...]:
-    """What a frame could be that does not answer the command before it."""
-    try:
-        return reader.meanings(frame)
-    except DecodeError:
-        return ()
-
-
-# --- fields in words --------------------------------------------------------------------------------------------------
-
-
-def explain(message: dcon.Message, name: str, value: Any) -> str:  # noqa: ANN401
-    """Return the value of a field in words."""
-    special = _SPECIAL.get((type(message), name))
-    if special is not None:
-        return special(value)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, Enum) and name not in _WORDS:
-        return value.name.lower()
-    return _WORDS.get(name, str)(value)
-
-
-def _watchdog(status: int) -> str:
-    message = dcon.HostWatchdogStatus(0, status)
-    enabled = "enabled" if message.enabled else "disabled"
-    return f"{status:02X}, {enabled}, {'timed out' if message.timed_out else 'not timed out'}"
-
-
-_WORDS: Mapping[str, Callable[[Any], str]] = {
-    "address": "{:02X}".format,
-    "new_address": "{:02X}".format,
-    "mask": mask_words,
-    "type_code": type_code_words,
-    "line_settings": line_settings_words,
-    "report_settings": report_settings_words,
-    "offset": lambda offset: f"{offset / 100:+.2f} degC",
-    "temperature": "{:+.1f} degC".format,
-    "status": _watchdog,
-    "timeout": lambda tenths: f"{tenths / 10} s",
-    "version": repr,
-    "name": repr,
-}
-_READ = ("value", "values")
-"""Told as readings."""
-_SPECIAL: Mapping[tuple[type[dcon.Message], str], Callable[[Any], str]] = {
-    (dcon.SetSoftInitTimeout, "timeout"): "{} s".format,
-}
+def register_record(row: modbus.Register) -> Record:
+    """Return the record of a row of an address map, as ``i7000 registers`` lists it."""
+    return {
+        "number": row.number,
+        "last_number": row.last_number,
+        "name": row.name,
+        "address": row.address,
+        "count": row.count,
+        "access": row.access.value,
+        "kind": row.kind.value,
+        "unit": row.unit,
+        "scale": row.scale,
+        "minimum": row.minimum,
+        "maximum": row.maximum,
+    }

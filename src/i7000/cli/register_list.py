@@ -5,11 +5,10 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from i7000 import modbus
-from i7000.cli import rtu
 from i7000.cli.explain import registers_explained
 from i7000.cli.explain_text import register_text
 from i7000.cli.options import Json, Module
-from i7000.cli.registers import register_record
+from i7000.cli.records import register_record
 from i7000.cli.text import Printer, register_lines
 from i7000.cli.words import UsageError
 
@@ -35,17 +34,17 @@ def registers(
     a count), `minimum`, `maximum` (in counts). One that is explained also has `meaning`, `values`, `cleared_by` (what
     can be written, where nothing else can), `functions`, `models`, `sections`, `errata`, `errata_explained`.
     """
-    known = Module(model=model, firmware=firmware).known("rtu")
+    known = Module(model=() if model is None else (model,), firmware=firmware).known("rtu")
     if name is None and known.model is None:
         raise UsageError("give --model to list its registers, or a register to be explained: i7000 registers 40489")
-    profiles = {profile.model: profile for profile in reversed(rtu.profiles(known))}
-    with Printer(json=json) as printer:
-        if name:
-            shown: set[str] = set()
-            for record in registers_explained(name, reversed(profiles.values())):
-                printer.record(record, register_text(record, shown))
-            return 0
-        for row in modbus.RegisterMap(*profiles.values()):
-            record = register_record(row)
-            printer.record(record, register_lines(record))
+    profiles = {profile.model: profile for profile in reversed(known.modbus)}
+    printer = Printer(json=json)
+    if name:
+        shown: set[str] = set()
+        for record in registers_explained(name, reversed(profiles.values())):
+            printer.record(record, register_text(record, shown))
+        return 0
+    for row in modbus.RegisterMap(*profiles.values()):
+        record = register_record(row)
+        printer.record(record, register_lines(record))
     return 0

@@ -63,8 +63,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     which 1024 pieces, or 65536 bytes, of late answers are on their way. Output that nobody reads is dropped, and
     counted: `n lines not shown`.
 
-    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, or a file that is damaged or cannot be written; 130
-    for Ctrl-C before the simulation has begun.
+    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, a file that is damaged or cannot be written, or
+    output that could not be written while the simulation went on; 130 for Ctrl-C before the simulation has begun.
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
 

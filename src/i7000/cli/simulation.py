@@ -8,15 +8,17 @@ import logging
 import signal
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout
+from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from functools import partial
+from ipaddress import IPv6Address
 from pathlib import Path
 from typing import IO, Any, cast
 
 from attrs import fields_dict, frozen
 
+from i7000.cli.module import read_module
 from i7000.cli.outlet import Outlet, missed_words
-from i7000.cli.simulated import read_module, read_signals
+from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
 from i7000.cli.traffic import lines
 from i7000.cli.view import View
@@ -28,6 +30,7 @@ from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.tcp import LOOPBACK, Connection, listen
+from i7000_cli import FAILED
 
 __all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_place", "run"]
 
@@ -83,8 +86,8 @@ def read_modules(
     Errors: `UsageError`, also for a file that is damaged; `OSError`.
     """
     described = [read_module(text, address) for address, text in enumerate(texts, 1)]
-    eeproms = tuple(eeprom for eeprom, _ in described)
-    switches = tuple(switch for _, switch in described)
+    eeproms = tuple(it.eeprom for it in described)
+    switches = tuple(it.init_switch for it in described)
     if memory is not None and memory.exists():
         from i7000.simulator.memory import load  # noqa: PLC0415
 
@@ -119,7 +122,18 @@ def read_place(scheme: str, text: str) -> Place:
     host, _, port = text.rpartition(":")
     if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
         raise UsageError(f"{text!r} is no [HOST:]PORT: a port is 0..65535, 0 any that is free")
-    return Place(scheme, host.strip("[]") or LOOPBACK, int(port))
+    return Place(scheme, _host(host, text) or LOOPBACK, int(port))
+
+
+def _host(host: str, text: str) -> str:
+    """Return a host without the brackets that an address of IPv6 has, which has colons."""
+    if host.startswith("[") and host.endswith("]"):
+        with suppress(ValueError):
+            IPv6Address(host[1:-1])
+            return host[1:-1]
+    elif not set(host) & set("[]:"):
+        return host
+    raise UsageError(f"{text!r} is no [HOST:]PORT: an IPv6 address stands in brackets, as in [::1]:5020")
 
 
 def read_faults(texts: Sequence[str]) -> Faults:
@@ -162,9 +176,10 @@ def run(simulated: Simulation, printer: Printer) -> int:
     """
     with _handlers_kept(), _never_held_up(printer, simulated.view) as out:
         try:
-            return asyncio.run(_run(simulated, printer, out))
+            asyncio.run(_run(simulated, printer, out))
         except I7000Error as error:
             raise UsageError(error) from None
+    return FAILED if out.failed else 0
 
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
@@ -185,7 +200,8 @@ def _handlers_kept() -> Iterator[None]:
 @contextmanager
 def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
     """Print so that the simulation goes on, and ends, even if nobody reads what is printed; the value is the output."""
-    out = Outlet(printer.out.file, most=0, counted=False) if view == "live" else Outlet(printer.out.file)
+    limits: dict[str, Any] = {"most": 0, "counted": False} if view == "live" else {}
+    out = Outlet(printer.out.file, report=partial(_report, printer), **limits)
     err = Outlet(printer.err.file)
     complaints = logging.StreamHandler(err)
     logging.getLogger("asyncio").addHandler(complaints)
@@ -200,7 +216,11 @@ def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
             err.close()
 
 
-async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
+def _report(printer: Printer, error: OSError) -> None:
+    printer.error(f"the output cannot be written: {error.strerror}")
+
+
+async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
     with _ended_by_signals(simulator):
         if simulated.memory is not None:
@@ -224,7 +244,6 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> int:
                 view = View(simulator.modules, printer.out, places, simulator.notices)
                 simulator.observe = opened.enter_context(view).show
             await simulator.run()
-        return 0
 
 
 @contextmanager

@@ -12,14 +12,15 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import cached_property, lru_cache
 from itertools import groupby
-from typing import TYPE_CHECKING, Self, TextIO
+from typing import TYPE_CHECKING, TextIO
 
-from i7000 import Model
-from i7000.cli.dcon import scope
+from i7000 import Model, describe
 from i7000.cli.records import Record
-from i7000.cli.words import type_code_words
+from i7000.dissect import Place
+from i7000.dissect.words import models_words
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -40,28 +41,18 @@ Line = list[tuple[str, str]]
 """The spans of a line: texts and their styles; no style is the empty one."""
 
 _INDENT = "     "
-_BUFFERED = 1 << 16
-"""Characters that are kept until they are written; `Printer.flush` writes them at once."""
 _json = json.JSONEncoder(check_circular=False).encode
 
 
 class Printer:
     """Where output goes: `json` as one object a line, else for people.
 
-    Time: records are kept until there are many, until `flush`, or until the end of a ``with`` block.
+    Time: records off a terminal are in the buffer of standard output until `flush`: Ctrl-C loses none of them.
     """
 
     def __init__(self, *, json: bool = False) -> None:
         self.json = json
         self._styled = _is_styled(sys.stdout)
-        self._kept: list[str] = []
-        self._size = 0
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.flush()
 
     @cached_property
     def out(self) -> "Console":
@@ -80,13 +71,13 @@ class Printer:
     def record(self, record: Record, lines: Iterable[Line]) -> None:
         """Print a record: as it is, or in lines for people."""
         if self.json:
-            self._write(_json(record))
+            _write(_json(record))
         elif self._styled:
             for line in lines:
                 _print(self.out, _text(line))
         else:
             for line in lines:
-                self._write(_plain(line, sys.stdout))
+                _write(_plain(line, sys.stdout))
 
     def show(self, lines: Iterable["Text"]) -> None:
         """Print texts for people, at once."""
@@ -96,7 +87,8 @@ class Printer:
 
     def error(self, message: object) -> None:
         """Say what is wrong."""
-        self.flush()
+        with suppress(OSError):  # `program` reports that the output cannot be written.
+            self.flush()
         line = [(f"i7000: {message}", "red")]
         if _is_styled(sys.stderr):
             _print(self.err, _text(line))
@@ -104,17 +96,14 @@ class Printer:
             sys.stderr.write(f"{_plain(line, sys.stderr)}\n")
 
     def flush(self) -> None:
-        """Write what was kept."""
-        kept, self._kept, self._size = self._kept, [], 0
-        if kept and sys.stdout:
-            sys.stdout.write("".join(kept))
+        """Write what was printed, now."""
+        if sys.stdout:
             sys.stdout.flush()
 
-    def _write(self, line: str) -> None:
-        self._kept += (line, "\n")
-        self._size += len(line)
-        if self._size >= _BUFFERED:
-            self.flush()
+
+def _write(line: str) -> None:
+    if sys.stdout:
+        sys.stdout.write(line + "\n")
 
 
 def _is_styled(file: TextIO | None) -> bool:
@@ -183,23 +172,26 @@ def printable(text: "Text", encoding: str) -> "Text":
 # --- decode -----------------------------------------------------------------------------------------------------------
 
 
-def frame_lines(record: Record, *, models: bool) -> Iterator[Line]:
-    """What a frame means; `models` tells whether to say which models it fits."""
-    yield [(f"{record['line']:<4} ", ""), (record["text"], "bold")]
+def frame_lines(record: Record, answers: Place | None, *, models: bool) -> Iterator[Line]:
+    """Yield what a frame means; `models`: with the models that it fits."""
+    for at, text in enumerate(record["text"].split("\n")):
+        yield [(f"{record['line'] + at:<4} ", ""), (text, "bold")]
     if record["error"]:
         yield [(f"{_INDENT}not understood: {record['error']}", "red")]
     if record["name"]:
-        yield from _meaning(record, models=models, answers=record["answers"])
+        yield from _meaning(record, models=models, answers=answers)
     for count, candidate in enumerate(record["candidates"]):
         yield [(_INDENT + ("or" if count else "could be"), "")]
-        yield from _meaning(candidate, models=models, answers=record["answers"])
+        yield from _meaning(candidate, models=models, answers=answers)
+    for note in record["notes"]:
+        yield _row("note", note)
 
 
-def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[Line]:
+def _meaning(record: Record, *, models: bool, answers: Place | None) -> Iterator[Line]:
     source = f"manual {record['section']}" + (f"; {' '.join(record['errata'])}" if record["errata"] else "")
     yield [(_INDENT, ""), (record["name"], "cyan"), (f": {record['title']} ({source})", "")]
     if record["command"]:
-        yield _row("answers", f"{record['command']}, line {answers}")
+        yield _row("answers", f"{record['command']}{f', {answers.where}' if answers else ''}")
     for name, words in record["explained"].items():
         yield _row(name, words)
     yield from _registers(record["registers"])
@@ -210,15 +202,13 @@ def _meaning(record: Record, *, models: bool, answers: int | None) -> Iterator[L
         yield _row("checksum", "right")
     if record["pause"]:
         yield _row("pause", f"{record['pause']:g} s before the next command")
-    if record["note"]:
-        yield _row("note", record["note"])
     if models:
         yield _row("models", _scope(tuple(record["models"]), record["section"]))
 
 
 @lru_cache(maxsize=256)
 def _scope(models: tuple[str, ...], section: str) -> str:
-    return scope(map(Model, models), section)
+    return models_words(map(Model, models), section)
 
 
 def _row(name: str, words: str) -> Line:
@@ -235,7 +225,7 @@ def _readings(record: Record) -> Iterator[Line]:
             line.append((f"  {reading['status'].upper()}", "yellow"))
         yield line
     for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
-        yield _row("type", type_code_words(code))
+        yield _row("type", describe.type_code(code))
     if any(reading["status"] is reading["type_code"] is None for reading in record["readings"]):
         yield _row("type", "not known: --type tells")
     if record["assumed"]:

@@ -5,19 +5,14 @@ cursor; what cannot be decoded is shown as bytes, with what is wrong.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
-from functools import partial
-from itertools import groupby, islice
-from typing import Any
+from functools import lru_cache
+from itertools import groupby
 
-from attrs import evolve
 from rich.text import Text
 
-from i7000 import DecodeError, Model, Noise, Profile, Protocol, Reading, Status, dcon, modbus
-from i7000.cli import records, rtu_records
-from i7000.cli.records import message_fields
-from i7000.cli.registers import Cell, cells
+from i7000 import DecodeError, Noise, Profile, Protocol, Reading, Status, dcon, modbus
 from i7000.cli.text import escaped
+from i7000.dissect import ChannelReading, Item, Knowledge, Known, Line, Meaning, hear_frame
 from i7000.simulator.observed import Observed
 
 __all__ = ["INDENT", "lines", "readings_text"]
@@ -27,10 +22,8 @@ INDENT = 12
 _SHOWN_BYTES = 80
 _SHOWN_REGISTERS = 32
 _SHOWN_NAMES = 6
-_ANY = Profile(Model.M_7019R)
-"""What frames that are for all modules are read with: these have the same form everywhere."""
-_TOLD = ("address", "value", "values")
-"""Fields that are not told by name: what the frame begins with, and what readings and registers tell."""
+_ELSEWHERE = ("address", "value", "values")
+"""Fields that are not shown by name: what the frame begins with, and what readings and registers show."""
 
 
 def lines(observed: Observed) -> Iterator[Text]:
@@ -63,16 +56,22 @@ def _deaf_words(protocol: Protocol, deaf: Profile) -> str:
     return f"a {heard} frame; the {model.value} speaks {spoken}{hint}"
 
 
-_STATUS = {Status.OVER_RANGE: ("OVER_RANGE", "yellow"), Status.UNDER_RANGE: ("UNDER_RANGE", "yellow")}
+_STATUS: dict[Status | None, tuple[str, str]] = {
+    Status.DISABLED: ("disabled", "dim"),
+    Status.OVER_RANGE: ("OVER_RANGE", "yellow"),
+    Status.UNDER_RANGE: ("UNDER_RANGE", "yellow"),
+}
 
 
-def readings_text(readings: Sequence[Reading], write: Callable[[int, float], str]) -> Text:
+def readings_text(readings: Sequence[Reading | ChannelReading], write: Callable[[int, float], str]) -> Text:
     """Tell readings: numbers as `write` makes them of channel and value; the unit once for neighbours that share it."""
     text = Text()
-    for channel, (value, unit, status) in enumerate(readings):
+    for channel, reading in enumerate(readings):
+        value, unit = reading.value, reading.unit
         text.append(", " if channel else "")
         if value is None:
-            text.append(*_STATUS.get(status, ("disabled", "dim")))
+            unknown = reading.text if isinstance(reading, ChannelReading) else ""
+            text.append(*_STATUS.get(reading.status, (unknown, "")))
             continue
         later = next((it.unit for it in readings[channel + 1 :] if it.value is not None), None)
         text.append(write(channel, value) + (f" {unit}" if unit is not later else ""), "green")
@@ -107,14 +106,19 @@ def _for_nobody(observed: Observed) -> list[Text]:
     return [Text("for no module here")] if observed.deaf is None else []
 
 
-def _words(message: Any, explain: Callable[[str, Any], str]) -> list[Text]:  # noqa: ANN401 - of either protocol
-    """Tell the fields of a message by name."""
-    told = {name: getattr(message, name) for name in message_fields(type(message)) if name not in _TOLD}
-    return [Text(f"{name} {explain(name, value)}") for name, value in told.items()]
+def _words(meaning: Meaning) -> list[Text]:
+    """Return the fields of a message, by name."""
+    return [Text(f"{field.name} {field.text}") for field in meaning.fields if field.name not in _ELSEWHERE]
 
 
 def _as_sent(_: int, value: float) -> str:
     return f"{value:.7g}"
+
+
+@lru_cache(maxsize=32)
+def _line(profile: Profile | None, protocol: Protocol) -> Line:
+    """Return a line on which nothing was heard yet, with a module of which everything is known."""
+    return Line(Knowledge.given(Known() if profile is None else Known.of(profile)), protocol)
 
 
 # --- DCON -------------------------------------------------------------------------------------------------------------
@@ -126,29 +130,18 @@ def _dcon(observed: Observed) -> _Pieces:
     if isinstance(heard, Noise):
         return _noise(_dcon_text(heard.wire), heard), answer
     text = _dcon_text(heard)
+    line, asked = hear_frame(_line(profile, Protocol.DCON), heard, Protocol.DCON)
     if profile is None:
-        broadcast = _broadcast(heard)
-        if broadcast:
-            return _meant(text, type(broadcast).__name__, Text("to all modules")), answer
+        for meaning in asked.meanings:
+            if isinstance(meaning.message, dcon.Broadcast):
+                return _meant(text, type(meaning.message).__name__, Text("to all modules")), answer
         return _meant(text, "", *_for_nobody(observed)), answer
-    try:
-        command = dcon.decode_command(heard, profile)
-    except DecodeError as error:
-        return _not_meant(text, _fault(error)), answer
-    asked = _meant(text, type(command).__name__, *_words(command, partial(records.explain, command)))
-    if observed.answer is not None and isinstance(command, dcon.Command):
-        answer = _dcon_answer(observed.answer, command, profile)
-    return asked, answer
-
-
-def _broadcast(frame: bytes) -> dcon.Broadcast | None:
-    """Read a command to all modules, which has a checksum or not."""
-    for known in (_ANY, evolve(_ANY, checksum=True)):
-        with suppress(DecodeError):
-            command = dcon.decode_command(frame, known)
-            if isinstance(command, dcon.Broadcast):
-                return command
-    return None
+    if asked.error is not None:
+        return _not_meant(text, _fault(asked.error)), answer
+    (meaning,) = asked.meanings
+    if observed.answer is not None and isinstance(meaning.message, dcon.Command):
+        answer = _dcon_answer(observed.answer, line)
+    return _meant(text, type(meaning.message).__name__, *_words(meaning)), answer
 
 
 def _dcon_text(wire: bytes) -> str:
@@ -156,28 +149,13 @@ def _dcon_text(wire: bytes) -> str:
     return shown if len(wire) <= _SHOWN_BYTES else f"{shown}... ({len(wire)} bytes)"
 
 
-def _dcon_answer(wire: bytes, command: dcon.Command[Any], profile: Profile) -> Text:
-    """Read an answer with the profile of before; the command may have changed whether there is a checksum."""
+def _dcon_answer(wire: bytes, line: Line) -> Text:
     text = _dcon_text(wire)
-    faults = []
-    for known in (profile, evolve(profile, checksum=not profile.checksum)):
-        try:
-            response = dcon.decode_response(wire, command, known)
-            values = _dcon_readings(response, command, known)
-        except DecodeError as error:
-            faults.append(error)
-            continue
-        words = _words(response, partial(records.explain, response))
-        return _meant(text, type(response).__name__, readings_text(values, _as_sent), *words)
-    return _not_meant(text, _fault(faults[0]))
-
-
-def _dcon_readings(response: dcon.Message, command: Any, profile: Profile) -> tuple[Reading, ...]:  # noqa: ANN401
-    if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
-        return dcon.readings(response, profile)
-    if isinstance(response, dcon.AnalogInput):
-        return (dcon.reading(response, command.channel, profile),)
-    return ()
+    _, heard = hear_frame(line, wire, Protocol.DCON)
+    if heard.error is not None:
+        return _not_meant(text, _fault(heard.error))
+    (meaning,) = heard.meanings
+    return _meant(text, type(meaning.message).__name__, readings_text(meaning.readings, _as_sent), *_words(meaning))
 
 
 # --- Modbus -----------------------------------------------------------------------------------------------------------
@@ -189,18 +167,18 @@ def _modbus(observed: Observed) -> _Pieces:
     if isinstance(heard, Noise):
         return _noise(_modbus_text(heard.wire), heard), answer
     text = _modbus_text(heard)
-    try:
-        request = modbus.decode_request(heard, profile or _ANY)
-    except DecodeError as error:
-        return _not_meant(text, _fault(error)), answer
-    details = _modbus_words(request, None, profile)
-    if not modbus.is_answered(request):
+    line, asked = hear_frame(_line(profile, Protocol.MODBUS_RTU), heard, Protocol.MODBUS_RTU)
+    if asked.error is not None:
+        return _not_meant(text, _fault(asked.error)), answer
+    (meaning,) = asked.meanings
+    details = _modbus_words(meaning, mapped=profile is not None)
+    if asked.address == modbus.BROADCAST:
         details.append(Text("to all modules"))
     elif profile is None:
         details += _for_nobody(observed)
     if observed.answer is not None:
-        answer = _modbus_answer(observed.answer, request, profile or _ANY)
-    return _meant(text, type(request).__name__, *details), answer
+        answer = _modbus_answer(observed.answer, line, mapped=profile is not None)
+    return _meant(text, type(meaning.message).__name__, *details), answer
 
 
 def _modbus_text(wire: bytes) -> str:
@@ -208,38 +186,38 @@ def _modbus_text(wire: bytes) -> str:
     return shown if len(wire) <= _SHOWN_BYTES else f"{shown}... ({len(wire)} bytes)"
 
 
-def _modbus_answer(wire: bytes, request: modbus.Request[Any], profile: Profile) -> Text:
+def _modbus_answer(wire: bytes, line: Line, *, mapped: bool) -> Text:
     text = _modbus_text(wire)
-    try:
-        response = modbus.decode_response(wire, request, profile)
-    except DecodeError as error:
-        return _not_meant(text, _fault(error))
-    return _meant(text, type(response).__name__, *_modbus_words(response, request, profile))
+    _, heard = hear_frame(line, wire, Protocol.MODBUS_RTU)
+    if heard.error is not None:
+        return _not_meant(text, _fault(heard.error))
+    (meaning,) = heard.meanings
+    return _meant(text, type(meaning.message).__name__, *_modbus_words(meaning, mapped=mapped))
 
 
-def _modbus_words(message: Any, request: Any, profile: Profile | None) -> list[Text]:  # noqa: ANN401 - messages
-    """Tell the registers that a message touches, by name, or else its fields; of many, the first."""
-    touched = list(islice(cells(message, request, profile), _SHOWN_REGISTERS + 1))
+def _modbus_words(meaning: Meaning, *, mapped: bool) -> list[Text]:
+    """Return the registers that a message touches, by name, or else its fields; of many, the first."""
+    touched = meaning.items
     if not touched:
-        return _words(message, partial(rtu_records.explain, message, request))
-    groups = [list(group) for _, group in groupby(touched[:_SHOWN_REGISTERS], lambda cell: cell.name)]
-    told = [_cells_text(group, mapped=profile is not None) for group in groups[:_SHOWN_NAMES]]
-    return told if sum(map(len, groups[:_SHOWN_NAMES])) == len(touched) else [*told, Text("...")]
+        return _words(meaning)
+    groups = [list(group) for _, group in groupby(touched[:_SHOWN_REGISTERS], lambda item: item.name)]
+    shown = [_items_text(group, mapped=mapped) for group in groups[:_SHOWN_NAMES]]
+    return shown if sum(map(len, groups[:_SHOWN_NAMES])) == len(touched) else [*shown, Text("...")]
 
 
-def _cells_text(group: list[Cell], *, mapped: bool) -> Text:
-    """Tell neighbours of one name: their numbers, the name, their values."""
+def _items_text(group: list[Item], *, mapped: bool) -> Text:
+    """Return neighbours of one name: their numbers, the name, their values."""
     first, last = group[0], group[-1]
     name = first.name or ("not in the map" if mapped else "")
     text = Text(" ").join(Text(it) for it in (_numbers(first, last), name) if it)
-    readings = [cell.reading for cell in group if cell.reading is not None]
+    readings = [item.reading for item in group if item.reading is not None]
     if len(readings) == len(group):
         return text.append(" ").append_text(readings_text(readings, _as_sent))
-    values = [cell.text or "" for cell in group if cell.value is not None]
+    values = [item.text or "" for item in group if item.value is not None]
     if first.name is None:
         values = [value.partition(",")[0] for value in values]
     return text.append(f" {', '.join(values)}") if values else text
 
 
-def _numbers(first: Cell, last: Cell) -> str:
+def _numbers(first: Item, last: Item) -> str:
     return first.number if first is last else f"{first.number}..{last.number}"

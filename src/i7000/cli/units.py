@@ -9,7 +9,7 @@ from typing import NamedTuple, get_args
 
 from i7000 import modbus
 from i7000.cli.numbers import integer, is_hex
-from i7000.cli.records import message_fields
+from i7000.cli.records import parts_of
 from i7000.cli.words import UsageError
 from i7000.message import Message
 
@@ -35,7 +35,7 @@ def scale_of(kind: type[Message], field: str, *, channel: bool) -> Scale | None:
     """
     if (kind, field) == (modbus.SetCjcOffset, "offset"):
         return Scale("degC", 10, bits=8) if channel else Scale("degC", 100)
-    number, part = get_args(message_fields(kind)[field].type)
+    number, part = get_args(parts_of(kind)[field].type)
     unit = getattr(part, "unit", None)
     return Scale(unit, round(1 / part.scale)) if unit and number is int else None
 

@@ -1,7 +1,4 @@
-"""Values in words, and words for values: type codes, settings, masks, numbers of people.
-
-Laws: a byte that the manual does not define is told as the number it is.
-"""
+"""Words that people type -> values: numbers, types, units, channels, choices."""
 
 import re
 from collections.abc import Mapping
@@ -11,11 +8,6 @@ from math import isfinite
 from typing import TypeVar
 
 from i7000 import MIXED, BaudRate, TypeCode, Unit
-from i7000.describe import line_settings as line_settings_words
-from i7000.describe import mask as mask_words
-from i7000.describe import module_name as module_name_words
-from i7000.describe import report_settings as report_settings_words
-from i7000.describe import type_code as type_code_words
 
 __all__ = [
     "UsageError",
@@ -24,16 +16,11 @@ __all__ = [
     "choice",
     "hex_byte",
     "integer",
-    "line_settings_words",
-    "mask_words",
     "member",
-    "module_name_words",
     "near",
     "quantity",
-    "report_settings_words",
     "truth",
     "type_code",
-    "type_code_words",
     "type_codes",
 ]
 

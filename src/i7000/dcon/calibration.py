@@ -8,7 +8,7 @@ opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and 
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -67,7 +67,7 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
     title = "span calibration of single current inputs"
     availability = Availability.M_7017MC_16
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
 
 @frozen
@@ -86,7 +86,7 @@ class CalibrateChannelZero(Command[Acknowledged]):
     title = "zero calibration of single channels"
     availability = Availability.SERIES_7019
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -109,7 +109,7 @@ class CalibrateChannelSpan(Command[Acknowledged]):
     title = "span calibration of single channels"
     availability = Availability.SERIES_7019
 
-    channel: layout.CalibratedChannel
+    channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -157,7 +157,7 @@ class SetCalibrationEnabled(Command[Acknowledged]):
     section = "2.31"
     title = "calibration switch"
 
-    enabled: layout.FlagV = field(kw_only=True)
+    enabled: parts.FlagV = field(kw_only=True)
 
 
 COMMANDS = (

@@ -196,8 +196,8 @@ def longest_response(command: AnyCommand, profile: Profile) -> int:
     """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
 
     >>> from i7000 import Model
-    >>> longest_response(ReadAnalogInputs(0x01), Profile(Model.I_7017))
-    58
+    >>> longest_response(ReadConfiguration(0x01), Profile(Model.I_7017))
+    10
     """
     check_type("profile", profile, Profile)
     check_type("command", command, Command, Broadcast)

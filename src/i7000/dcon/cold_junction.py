@@ -3,7 +3,7 @@
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -38,7 +38,7 @@ class CjcTemperature(Response):
     section = "2.11"
     title = "CJC temperature"
 
-    temperature: layout.Temperature
+    temperature: parts.Temperature
 
 
 class ReadCjcTemperature(Command[CjcTemperature]):
@@ -69,8 +69,8 @@ class CjcOffset(Response):
     section = "2.17"
     title = "CJC offset"
 
-    address: layout.Address
-    offset: layout.OffsetData
+    address: parts.Address
+    offset: parts.OffsetData
 
     @property
     def celsius(self) -> float:
@@ -114,7 +114,7 @@ class SetCjcOffset(Command[Acknowledged]):
     title = "CJC offset"
     availability = Availability.SERIES_7018_7019
 
-    offset: layout.Offset
+    offset: parts.Offset
 
     def check(self, profile: Profile) -> None:
         """Refuse an offset beyond the limit."""
@@ -133,8 +133,8 @@ class CjcUpdateSetting(Response):
     section = "2.20"
     title = "CJC update setting"
 
-    address: layout.Address
-    update: layout.Update
+    address: parts.Address
+    update: parts.Update
 
 
 class ReadCjcUpdate(Command[CjcUpdateSetting]):
@@ -165,7 +165,7 @@ class SetCjcUpdate(Command[Acknowledged]):
     title = "CJC update setting"
     availability = Availability.SERIES_7019
 
-    update: layout.Update
+    update: parts.Update
 
 
 @frozen
@@ -180,8 +180,8 @@ class CjcEnabled(Response):
     section = "2.29"
     title = "CJC switch"
 
-    address: layout.Address
-    enabled: layout.FlagN = field(kw_only=True)
+    address: parts.Address
+    enabled: parts.FlagN = field(kw_only=True)
 
 
 class ReadCjcEnabled(Command[CjcEnabled]):
@@ -212,7 +212,7 @@ class SetCjcEnabled(Command[Acknowledged]):
     title = "CJC switch"
     availability = Availability.SERIES_7018_7019
 
-    enabled: layout.FlagN = field(kw_only=True)
+    enabled: parts.FlagN = field(kw_only=True)
 
 
 COMMANDS = (

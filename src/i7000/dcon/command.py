@@ -7,7 +7,8 @@ command names its response by type: ``class ReadConfiguration(Command[Configurat
 from typing import ClassVar, Generic, TypeVar
 
 from i7000 import message
-from i7000.dcon.layout import Address, Layout
+from i7000.dcon.layout import Layout
+from i7000.dcon.parts import Address
 
 __all__ = ["Acknowledged", "Broadcast", "Command", "Message", "Refused", "Response"]
 

@@ -9,7 +9,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 from i7000.profile import Profile
@@ -43,10 +43,10 @@ class SetConfiguration(Command[Acknowledged]):
     section = "2.1"
     title = "module configuration"
 
-    new_address: layout.NewAddress
-    type_code: layout.NewTypeCode
-    line_settings: layout.Line
-    report_settings: layout.Report
+    new_address: parts.NewAddress
+    type_code: parts.NewTypeCode
+    line_settings: parts.Line
+    report_settings: parts.Report
 
     @property
     def answering_address(self) -> int:
@@ -76,10 +76,10 @@ class Configuration(Response):
     section = "2.10"
     title = "module configuration"
 
-    address: layout.Address
-    type_code: layout.NewTypeCode
-    line_settings: layout.Line
-    report_settings: layout.Report
+    address: parts.Address
+    type_code: parts.NewTypeCode
+    line_settings: parts.Line
+    report_settings: parts.Report
 
     def command(self, **changes: Any) -> SetConfiguration:  # noqa: ANN401 - checked by the constructor
         """Make the command that writes this configuration back, with `changes` to the fields of `SetConfiguration`.
@@ -122,8 +122,8 @@ class SetChannelTypeCode(Command[Acknowledged]):
     title = "type code of single channels"
     availability = Availability.CONFIGURABLE
 
-    channel: layout.ChannelI
-    type_code: layout.ChannelTypeCode
+    channel: parts.ChannelI
+    type_code: parts.ChannelTypeCode
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or a type that the module does not have."""
@@ -143,9 +143,9 @@ class ChannelTypeCode(Response):
     section = "2.16"
     title = "type code of a channel"
 
-    address: layout.Address
-    channel: layout.ChannelI
-    type_code: layout.ChannelTypeCode
+    address: parts.Address
+    channel: parts.ChannelI
+    type_code: parts.ChannelTypeCode
 
 
 @frozen
@@ -164,7 +164,7 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
     title = "type code of single channels"
     availability = Availability.CONFIGURABLE
 
-    channel: layout.ChannelI
+    channel: parts.ChannelI
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""

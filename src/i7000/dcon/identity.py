@@ -6,7 +6,7 @@ Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.errors import EncodeError
 from i7000.message import frozen
@@ -42,8 +42,8 @@ class FirmwareVersion(Response):
     section = "2.23"
     title = "firmware version"
 
-    address: layout.Address
-    version: layout.Version
+    address: parts.Address
+    version: parts.Version
 
 
 class ReadFirmwareVersion(Command[FirmwareVersion]):
@@ -72,8 +72,8 @@ class ModuleName(Response):
     section = "2.24"
     title = "module name"
 
-    address: layout.Address
-    name: layout.Name
+    address: parts.Address
+    name: parts.Name
 
 
 class ReadModuleName(Command[ModuleName]):
@@ -102,7 +102,7 @@ class SetModuleName(Command[Acknowledged]):
     section = "2.33"
     title = "module name"
 
-    name: layout.NewName
+    name: parts.NewName
 
     def check(self, profile: Profile) -> None:
         """Refuse a name that is the text of another answer."""
@@ -121,10 +121,10 @@ class ProtocolSetting(Response):
     section = "2.25"
     title = "protocol"
 
-    address: layout.Address
-    modbus_supported: layout.FlagS = field(kw_only=True)
+    address: parts.Address
+    modbus_supported: parts.FlagS = field(kw_only=True)
     """True on every module that has the command (E92)."""
-    protocol: layout.ProtocolC
+    protocol: parts.ProtocolC
 
 
 class ReadProtocol(Command[ProtocolSetting]):
@@ -155,7 +155,7 @@ class SetProtocol(Command[Acknowledged]):
     title = "protocol"
     availability = Availability.M_SERIES
 
-    protocol: layout.ProtocolN
+    protocol: parts.ProtocolN
 
 
 class SoftInit(Command[Acknowledged]):
@@ -190,7 +190,7 @@ class SetSoftInitTimeout(Command[Acknowledged]):
     title = "soft INIT time-out"
     availability = Availability.SOFT_INIT
 
-    timeout: layout.Seconds
+    timeout: parts.Seconds
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
         """Refuse a longer time-out."""

@@ -9,7 +9,7 @@ mean is told by `i7000.dcon.readings`.
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Message, Response
 from i7000.errors import EncodeError
 from i7000.fields import is_field
@@ -58,7 +58,7 @@ class AnalogInputs(Response):
     section = "2.3"
     title = "readings of all channels"
 
-    values: layout.Values
+    values: parts.Values
 
     def check(self, profile: Profile) -> None:
         """Refuse fields that are not those of the module's channels."""
@@ -90,7 +90,7 @@ class AnalogInput(Response):
     section = "2.4"
     title = "reading of one channel"
 
-    value: layout.Value
+    value: parts.Value
 
     def check(self, profile: Profile) -> None:
         """Refuse a field of another data format."""
@@ -112,7 +112,7 @@ class ReadAnalogInput(Command[AnalogInput]):
     section = "2.4"
     title = "reading of one channel"
 
-    channel: layout.ChannelN
+    channel: parts.ChannelN
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -132,7 +132,7 @@ class AnalogInputsHex(Response):
     section = "2.19"
     title = "readings of all channels in hex"
 
-    values: layout.HexValues
+    values: parts.HexValues
 
     def check(self, profile: Profile) -> None:
         """Refuse fields that are not those of the module's channels."""
@@ -167,7 +167,7 @@ class SetChannelMask(Command[Acknowledged]):
     section = "2.13"
     title = "channel mask"
 
-    mask: layout.Mask
+    mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
@@ -187,8 +187,8 @@ class ChannelMask(Response):
     section = "2.14"
     title = "channel mask"
 
-    address: layout.Address
-    mask: layout.Mask
+    address: parts.Address
+    mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
@@ -220,8 +220,8 @@ class Diagnostics(Response):
     section = "2.22"
     title = "channel diagnostics"
 
-    address: layout.Address
-    mask: layout.DiagnosticMask
+    address: parts.Address
+    mask: parts.DiagnosticMask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
@@ -254,8 +254,8 @@ class ConnectingMode(Response):
     section = "2.42"
     title = "connecting mode"
 
-    address: layout.Address
-    single_ended: layout.FlagN = field(kw_only=True)
+    address: parts.Address
+    single_ended: parts.FlagN = field(kw_only=True)
 
 
 class ReadConnectingMode(Command[ConnectingMode]):
@@ -286,7 +286,7 @@ class SetConnectingMode(Command[Acknowledged]):
     title = "connecting mode"
     availability = Availability.SERIES_7017Z
 
-    single_ended: layout.FlagN = field(kw_only=True)
+    single_ended: parts.FlagN = field(kw_only=True)
 
 
 COMMANDS = (

@@ -5,278 +5,38 @@ fill: ``syntax = "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: 
 which they stand. What is between the parts is literal. The first use of a class compiles its statement to straight-line
 code: slices, look-ups and one ``%``.
 
-Laws: the constructor takes exactly the values that a part `accepts`; what a part writes, it reads back as it was.
+Laws: the constructor takes exactly the values that a part `accepts`.
+
+>>> from i7000 import dcon
+>>> print(dcon.SetCjcOffset.layout.source)
+def check(m):
+    address = m.address
+    if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
+        refuse('address', address)
+    offset = m.offset
+    if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
+        refuse('offset', offset)
+<BLANKLINE>
+def encode(m, p):
+    return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
+<BLANKLINE>
+def decode(t, p):
+    if len(t) != 9 or t[0] != '$' or t[3] != '9':
+        raise KeyError
+    m = new(message)
+    set_address(m, parse_address(t[1:3]))
+    set_offset(m, parse_offset(t[4:9]))
+    return m
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, get_origin
 
-from attrs import fields
-
-from i7000 import describe
+from i7000.compiled import check_names, check_source, compiled
+from i7000.dcon.parts import DIGITS, Part
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.fields import FIELD_WIDTHS, LEGACY_WIDTH, are_fields, split_fields
 from i7000.frozen import frozen
-from i7000.names import CHARACTERS, LONGEST_NAME, is_name, is_version
 from i7000.profile import Profile
-from i7000.settings import CjcUpdate, DataFormat, LineSettings, Protocol, ReportSettings, is_int
-from i7000.type_codes import TypeCode
-
-# --- parts ------------------------------------------------------------------------------------------------------------
-
-_DIGITS = "0123456789ABCDEF"
-
-
-class Part(NamedTuple):
-    """One field's place in a syntax."""
-
-    notation: str
-    """What stands for it in the syntax."""
-    allowed: str
-    """Its values, for messages."""
-    format: str
-    """How ``%`` writes it."""
-    arguments: str
-    """What ``%`` is given: an expression of the field, ``{}``, and the profile, ``p``."""
-    accepts: Callable[[Any], bool]
-    """Whether the field can have this value."""
-    parse: Callable[..., Any]
-    """Read it from its characters; `KeyError` where they are none of the expected."""
-    fault: Fault = Fault.CHARACTER
-    """What a `KeyError` of `parse` means."""
-    width: int | str | None = None
-    """Characters: a number, an attribute of the profile, or ``rest``: all that are left; None: as the notation."""
-    contextual: bool = False
-    """Whether `parse` takes the profile after the text."""
-    longest: Callable[[Profile], int] | None = None
-    """The most characters of a part that takes all that are left."""
-    characters: str = _DIGITS
-    """What its characters can be, where a wrong one is a fault of its own."""
-    signed: bool = False
-    """Whether a sign stands before its `characters`; `parse` judges the sign itself."""
-    values: Any = None
-    """The type of its values where they are more than numbers or text: an enumeration, bool or settings."""
-    unit: str | None = None
-    """The unit of a quantity."""
-    scale: float = 1
-    """What one count is in the unit."""
-    describe: Callable[[Any], str] = describe.value
-    """The value in words, with its unit."""
-
-    def __repr__(self) -> str:
-        """What `help` shows beside a field: the notation and the values."""
-        return f"<{self.notation}: {self.allowed}>"
-
-
-_PAIRS = {f"{byte:02X}": byte for byte in range(256)}
-_TYPE_CODES = {text: TypeCode.of(byte) for text, byte in _PAIRS.items()}
-
-
-def _parse_hex(text: str) -> int:
-    """Read upper-case digits only, where `int` would take more."""
-    if text.strip(_DIGITS):
-        raise KeyError(text)
-    return int(text, 16)
-
-
-def byte(notation: str, words: Callable[[int], str] = describe.hex_byte) -> Part:
-    """Two hex digits, described with `words`."""
-    return Part(
-        notation, "00..FF", "%02X", "{}",
-        lambda value: is_int(value, 0, 0xFF), _PAIRS.__getitem__, describe=words,
-    )  # fmt: skip
-
-
-def _quantity(part: Part, unit: str, scale: float, form: str) -> Part:
-    """A number that counts `scale` of a unit, described as a number of the format `form`."""
-    return part._replace(unit=unit, scale=scale, describe=describe.quantity(unit, scale, form))
-
-
-def _type_code(notation: str) -> Part:
-    """Two hex digits: a type code, or an undefined number."""
-    return byte(notation, describe.type_code)._replace(parse=_TYPE_CODES.__getitem__, values=TypeCode)
-
-
-def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings], words: Callable[[Any], str]) -> Part:
-    """Two hex digits that are a byte of settings."""
-    return Part(
-        notation, f"{kind.__name__}", "%02X", "{}.byte",
-        lambda value: isinstance(value, kind), lambda text: kind.from_byte(_PAIRS[text]), values=kind, describe=words,
-    )  # fmt: skip
-
-
-def _choice(notation: str, kind: type[bool | CjcUpdate | Protocol]) -> Part:
-    """One digit, of the few that have a meaning."""
-    values = {f"{value:d}": value for value in (kind if issubclass(kind, CjcUpdate | Protocol) else (False, True))}
-    allowed = " ".join(f"{digit} ({value!s})" if kind is bool else digit for digit, value in values.items())
-    return Part(
-        notation, f"{kind.__name__}: {allowed}", "%d", "{}",
-        lambda value: isinstance(value, kind), values.__getitem__, Fault.VALUE, values=kind,
-    )  # fmt: skip
-
-
-def _channel(notation: str) -> Part:
-    """A channel number: one digit, or two in single-ended mode (E21, E22)."""
-    return Part(
-        notation, "0..F, or 00..FF in single-ended mode", "%0*X", "p.channel_digits, {}",
-        lambda value: is_int(value, 0, 0xFF), _parse_hex, width="channel_digits",
-    )  # fmt: skip
-
-
-def _digit(notation: str) -> Part:
-    """A channel number in one hex digit, whatever the connecting mode."""
-    return Part(notation, "0..F", "%X", "{}", lambda value: is_int(value, 0, 0xF), _parse_hex)
-
-
-def _mask(notation: str) -> Part:
-    """A bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
-    return Part(
-        notation, "2, 4 or 6 hex digits", "%0*X", "p.mask_digits, {}",
-        lambda value: is_int(value, 0, 0xFFFFFF), _parse_hex, width="mask_digits", describe=describe.mask,
-    )  # fmt: skip
-
-
-def _offset(notation: str) -> Part:
-    """A sign and the magnitude in four hex digits; -0 is read as 0 (2.18; E85)."""
-
-    def parse(text: str) -> int:
-        if text[0] not in "+-":
-            raise DecodeError(Fault.NUMBER, text.encode(), allowed="+ or -")
-        return _parse_hex(text[1:]) * (-1 if text[0] == "-" else 1)
-
-    part = Part(
-        notation, "-FFFF..+FFFF in hex", "%c%04X", "43 if {0} >= 0 else 45, abs({0})",
-        lambda value: is_int(value, -0xFFFF, 0xFFFF), parse, width=5, signed=True,
-    )  # fmt: skip
-    return _quantity(part, "degC", 0.01, "+.2f")
-
-
-def _temperature(notation: str) -> Part:
-    """A sign, four digits, a point and one digit (2.11)."""
-
-    def parse(text: str) -> float:
-        if text[:1] not in ("+", "-") or text[5:6] != "." or (text[1:5] + text[6:]).strip("0123456789"):
-            raise KeyError(text)
-        return float(text)
-
-    def accepts(value: Any) -> bool:  # noqa: ANN401
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        return number and -9999.9 <= value <= 9999.9 and round(value, 1) == value
-
-    part = Part(notation, "-9999.9..+9999.9, in tenths", "%+07.1f", "{} + 0.0", accepts, parse, Fault.NUMBER, 7)
-    return _quantity(part, "degC", 1, "+.1f")
-
-
-def _text(
-    notation: str, lengths: tuple[int, int], allowed: str, is_valid: Callable[[str], bool] = lambda _: True
-) -> Part:
-    """Characters to the end: those of names, in a form of their own (E102, E122)."""
-    shortest, longest = lengths
-
-    def accepts(value: Any) -> bool:  # noqa: ANN401
-        short = isinstance(value, str) and shortest <= len(value) <= longest
-        return short and CHARACTERS.issuperset(value) and is_valid(value)
-
-    def parse(text: str) -> str:
-        if not shortest <= len(text) <= longest:
-            raise DecodeError(Fault.LENGTH, text.encode(), min(len(text), longest), allowed=allowed)
-        if not CHARACTERS.issuperset(text):
-            raise KeyError(text)
-        if not is_valid(text):
-            raise DecodeError(Fault.VALUE, text.encode(), allowed=allowed)
-        return text
-
-    return Part(
-        notation, allowed, "%b", "{}.encode()",
-        accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(CHARACTERS)),
-        describe=repr,
-    )  # fmt: skip
-
-
-_NAME_LENGTHS = (1, LONGEST_NAME)
-_NAME = f"1 to {LONGEST_NAME} characters, printable ASCII without % # $ ~ @ ! > ?"
-
-
-def _longest_field(data_format: DataFormat, profile: Profile) -> int:
-    width = FIELD_WIDTHS[data_format]
-    return max(width, LEGACY_WIDTH) if profile.legacy_sentinels else width
-
-
-def _values(notation: str, data_format: DataFormat | None = None) -> Part:
-    """The fields of all channels: in the data format of the profile, or in one that is given."""
-
-    def form(profile: Profile) -> DataFormat:
-        return profile.data_format if data_format is None else data_format
-
-    def parse(text: str, profile: Profile) -> tuple[str, ...]:
-        return split_fields(text, profile.channels, form(profile), legacy=profile.legacy_sentinels)
-
-    def accepts(value: Any) -> bool:  # noqa: ANN401
-        strings = isinstance(value, tuple) and value and all(isinstance(text, str) for text in value)
-        return bool(strings) and are_fields(value)
-
-    return Part(
-        notation, "a tuple of channel fields, each as sent", "%b", "''.join({}).encode()",
-        accepts, parse, Fault.NUMBER, "rest", contextual=True,
-        longest=lambda profile: profile.channels * _longest_field(form(profile), profile),
-    )  # fmt: skip
-
-
-def _value(notation: str) -> Part:
-    """The field of one channel, in the data format of the profile."""
-
-    def parse(text: str, profile: Profile) -> str:
-        return split_fields(text, 1, profile.data_format, legacy=profile.legacy_sentinels)[0]
-
-    def accepts(value: object) -> bool:
-        return isinstance(value, str) and are_fields((value,))
-
-    return Part(
-        notation, "a channel field, as sent", "%b", "{}.encode()",
-        accepts, parse, Fault.NUMBER, "rest", contextual=True,
-        longest=lambda profile: _longest_field(profile.data_format, profile),
-    )  # fmt: skip
-
-
-# The types of fields, by the notation of the manual.
-Address = Annotated[int, byte("AA")]
-NewAddress = Annotated[int, byte("NN")]
-NewTypeCode = Annotated[TypeCode | int, _type_code("TT")]
-ChannelTypeCode = Annotated[TypeCode | int, _type_code("rr")]
-Line = Annotated[LineSettings, _settings("CC", LineSettings, describe.line_settings)]
-Report = Annotated[ReportSettings, _settings("FF", ReportSettings, describe.report_settings)]
-ChannelN = Annotated[int, _channel("N")]
-ChannelI = Annotated[int, _channel("i")]
-CalibratedChannel = Annotated[int, _digit("i")]
-Mask = Annotated[int, _mask("VV")]
-DiagnosticMask = Annotated[int, _mask("NN")]
-Offset = Annotated[int, _offset("SNNNN")]
-OffsetData = Annotated[int, _offset("(Data)")]
-Temperature = Annotated[float, _temperature("(Data)")]
-Version = Annotated[str, _text("(Data)", (4, 5), "a letter, a digit, a point, one or two digits", is_version)]
-Name = Annotated[
-    str,
-    _text(
-        "(Name)",
-        _NAME_LENGTHS,
-        f"{_NAME}; not the text of another answer (2, 4 or 6 hex digits, a version, ...)",
-        is_name,
-    ),
-]
-NewName = Annotated[str, _text("(Name)", _NAME_LENGTHS, _NAME)]
-Values = Annotated[tuple[str, ...], _values("(Data)")]
-HexValues = Annotated[tuple[str, ...], _values("(Data)", DataFormat.HEX)]
-Value = Annotated[str, _value("(Data)")]
-Update = Annotated[CjcUpdate, _choice("i", CjcUpdate)]
-ProtocolN = Annotated[Protocol, _choice("N", Protocol)]
-ProtocolC = Annotated[Protocol, _choice("C", Protocol)]
-FlagN = Annotated[bool, _choice("N", bool)]
-FlagS = Annotated[bool, _choice("S", bool)]
-FlagE = Annotated[bool, _choice("E", bool)]
-FlagV = Annotated[bool, _choice("V", bool)]
-Seconds = Annotated[int, _quantity(byte("nn"), "s", 1, "d")]
-Tenths = Annotated[int, _quantity(byte("VV"), "s", 0.1, ".1f")]
-
 
 # --- layouts ----------------------------------------------------------------------------------------------------------
 
@@ -288,6 +48,10 @@ class Layout:
     syntax: str
     pieces: tuple[tuple[str, str | Part], ...]
     """In wire order: ``("", literal)`` or ``(field name, part)``."""
+    source: str
+    """Of the three functions."""
+    check: Callable[[Any], None]
+    """Refuse values that no message of this class can have."""
     encode: Callable[[Any, Profile], bytes]
     """Message and profile -> body."""
     decode: Callable[[str, Profile], Any]
@@ -300,25 +64,18 @@ class Layout:
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
         """Compile the syntax of a message class."""
-        pieces = tuple(_pieces(message))
-        source = "\n".join((*_encoder(pieces), *_decoder(pieces)))
-        names: dict[str, Any] = {"message": message, "new": object.__new__}
-        for name, part in pieces:
-            if isinstance(part, Part):
-                names[f"parse_{name}"] = part.parse
-                names[f"set_{name}"] = getattr(message, name).__set__
-        exec(compile(source, f"<layout of {message.__name__}>", "exec"), names)  # noqa: S102 - our own syntax strings
+        pieces = tuple(pieces_of(message))
+        parts = {name: part for name, part in pieces if isinstance(part, Part)}
+        source = "\n".join((*check_source(parts), "", *_encoder(pieces), "", *_decoder(pieces)))
+        names: dict[str, Any] = {"message": message, "new": object.__new__, **check_names(parts, message.section)}
+        for name, part in parts.items():
+            names[f"parse_{name}"] = part.parse
+            names[f"set_{name}"] = getattr(message, name).__set__
+        made = compiled(source, f"{message.__module__}.{message.__name__}", names)
         leads = f"{message.syntax[0]}?".encode()
         addressed = any(name == "address" for name, _ in pieces)
-        return cls(message.syntax, pieces, names["encode"], names["decode"], leads, addressed)
-
-    def check(self, message: Any) -> None:  # noqa: ANN401
-        """Refuse values that no message of this class can have."""
-        for name, part in self.pieces:
-            if isinstance(part, Part):
-                value = getattr(message, name)
-                if not part.accepts(value):
-                    raise EncodeError(name, value, part.allowed, message.section)
+        functions = (made["check"], made["encode"], made["decode"])
+        return cls(message.syntax, pieces, source, *functions, leads, addressed)
 
     def check_digits(self, message: Any, profile: Profile) -> None:  # noqa: ANN401
         """Refuse numbers that have more digits than the module reads."""
@@ -379,24 +136,31 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
         if part.fault is not Fault.CHARACTER:
             return DecodeError(part.fault, text.encode(), allowed=part.allowed)
         at = next(at for at in range(part.signed, len(text)) if text[at] not in part.characters)
-        allowed = "0-9 A-F" if part.characters == _DIGITS else part.allowed
+        allowed = "0-9 A-F" if part.characters == DIGITS else part.allowed
         return DecodeError(part.fault, text.encode(), at, allowed=allowed)
     except DecodeError as error:
         return error
     return None
 
 
-def _pieces(message: Any) -> Iterator[tuple[str, str | Part]]:  # noqa: ANN401
+def _fields(message: Any) -> Iterator[tuple[str, Part]]:  # noqa: ANN401
+    """Read the annotations of a class and its bases; attrs has not made the class yet, perhaps, and takes long to."""
+    for base in reversed(message.__mro__):
+        for name, annotation in vars(base).get("__annotations__", {}).items():
+            if get_origin(annotation) is Annotated:
+                yield name, annotation.__metadata__[0]
+
+
+def pieces_of(message: Any) -> Iterator[tuple[str, str | Part]]:  # noqa: ANN401
     """Find the notation of each field in the syntax, from the left, and the literals between."""
     rest: str = message.syntax
-    for attribute in fields(message):
-        part: Part = attribute.type.__metadata__[0]
+    for name, part in _fields(message):
         literal, found, rest = rest.partition(part.notation)
         if not found:
             raise TypeError(f"{message.__name__}: {message.syntax!r} has no {part.notation!r}")
         if literal:
             yield "", literal
-        yield attribute.name, part
+        yield name, part
     if rest:
         yield "", rest
 

@@ -6,7 +6,7 @@ Laws: the second letter of ``~AAEO`` is the letter O, where ``~AAE0`` with the d
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Command, Response
 from i7000.message import frozen
 
@@ -25,8 +25,8 @@ class OpenWireDetection(Response):
     section = "2.40"
     title = "open wire detection"
 
-    address: layout.Address
-    enabled: layout.FlagN = field(kw_only=True)
+    address: parts.Address
+    enabled: parts.FlagN = field(kw_only=True)
 
 
 class ReadOpenWireDetection(Command[OpenWireDetection]):
@@ -57,7 +57,7 @@ class SetOpenWireDetection(Command[Acknowledged]):
     title = "open wire detection setting"
     availability = Availability.OPEN_WIRE
 
-    enabled: layout.FlagN = field(kw_only=True)
+    enabled: parts.FlagN = field(kw_only=True)
 
 
 COMMANDS = (

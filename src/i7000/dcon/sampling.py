@@ -6,7 +6,7 @@ Models: 7019 series.
 from attrs import field
 
 from i7000.availability import Availability
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Broadcast, Command, Response
 from i7000.dcon.inputs import check_values
 from i7000.message import frozen
@@ -44,10 +44,10 @@ class SynchronizedData(Response):
     section = "2.12"
     title = "synchronized readings of all channels"
 
-    address: layout.Address
-    first_reading: layout.FlagS = field(kw_only=True)
+    address: parts.Address
+    first_reading: parts.FlagS = field(kw_only=True)
     """Whether they are told for the first time."""
-    values: layout.Values
+    values: parts.Values
 
     def check(self, profile: Profile) -> None:
         """Refuse fields that are not those of the module's channels."""

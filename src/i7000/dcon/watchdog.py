@@ -4,7 +4,7 @@ from typing import Annotated
 
 from attrs import field
 
-from i7000.dcon import layout
+from i7000.dcon import parts
 from i7000.dcon.command import Acknowledged, Broadcast, Command, Response
 from i7000.message import frozen
 
@@ -52,8 +52,8 @@ class HostWatchdogStatus(Response):
     section = "2.36"
     title = "host watchdog status"
 
-    address: layout.Address
-    status: Annotated[int, layout.byte("SS", _status)]
+    address: parts.Address
+    status: Annotated[int, parts.byte("SS", _status)]
 
     @property
     def enabled(self) -> bool:
@@ -103,9 +103,9 @@ class HostWatchdogTimeout(Response):
     section = "2.38"
     title = "host watchdog time-out"
 
-    address: layout.Address
-    enabled: layout.FlagE = field(kw_only=True)
-    timeout: layout.Tenths
+    address: parts.Address
+    enabled: parts.FlagE = field(kw_only=True)
+    timeout: parts.Tenths
 
 
 class ReadHostWatchdogTimeout(Command[HostWatchdogTimeout]):
@@ -133,8 +133,8 @@ class SetHostWatchdogTimeout(Command[Acknowledged]):
     section = "2.39"
     title = "host watchdog time-out"
 
-    enabled: layout.FlagE = field(kw_only=True)
-    timeout: layout.Tenths
+    enabled: parts.FlagE = field(kw_only=True)
+    timeout: parts.Tenths
 
 
 COMMANDS = (

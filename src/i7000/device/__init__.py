@@ -12,8 +12,9 @@ line.
 from i7000.device.bus import Bus, Ear, Heard
 from i7000.device.logger import CAPACITY, Log, LogCommand, Record
 from i7000.device.module import advance, step
+from i7000.device.ram import Ram
 from i7000.device.signals import OPEN_WIRE, Signal, Signals
-from i7000.device.state import Eeprom, Ram, State, factory, power_on
+from i7000.device.state import Eeprom, State, factory, power_on
 from i7000.device.uart import Uart
 
 __all__ = [

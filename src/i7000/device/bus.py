@@ -12,7 +12,7 @@ from typing import NamedTuple
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
-from i7000.arguments import LARGEST_FLOAT, as_bytes, as_tuple, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, as_bytes, as_tuple, check_clock, check_seconds, check_type
 from i7000.device.module import is_for, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
@@ -20,7 +20,7 @@ from i7000.device.uart import Uart, hear_at
 from i7000.errors import EncodeError, Noise
 from i7000.frozen import frozen
 from i7000.profile import Profile
-from i7000.settings import LineSettings, Protocol, is_number
+from i7000.settings import LineSettings, Protocol
 
 __all__ = ["Bus", "Ear", "Heard"]
 
@@ -96,8 +96,7 @@ class Bus:
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.modules, tuple) or not {State}.issuperset(map(type, self.modules)):
             raise EncodeError("modules", self.modules, "a tuple of State", "")
-        if not is_number(self.clock):
-            raise EncodeError("clock", self.clock, "a finite number of seconds", "")
+        check_seconds("clock", self.clock)
 
     def step(self, frame: bytes, signals: Sequence[Signals], now: float) -> tuple["Bus", bytes | None]:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.

@@ -11,8 +11,9 @@ from functools import lru_cache, partial
 from itertools import chain, repeat
 from typing import TypeVar
 
+from i7000.device.ram import Sample
 from i7000.device.signals import OPEN_WIRE, Signal, Signals
-from i7000.device.state import Eeprom, Inputs, Sample, State, profile_of
+from i7000.device.state import Eeprom, Inputs, State, profile_of
 from i7000.errors import EncodeError
 from i7000.models import Model, series
 from i7000.readings import (

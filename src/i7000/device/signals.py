@@ -5,9 +5,8 @@ Laws: a signal is what a meter would show at the terminals; what the module make
 
 from attrs import field, frozen
 
-from i7000.arguments import check_int
+from i7000.arguments import check_int, is_number
 from i7000.errors import EncodeError
-from i7000.settings import is_number
 from i7000.type_codes import Unit
 
 __all__ = ["OPEN_WIRE", "Signal", "Signals"]

@@ -6,31 +6,28 @@ too. A `State` always has the profile that its bytes are read with.
 
 from collections.abc import Callable
 from functools import lru_cache
-from types import NoneType
 from typing import Any, TypeVar
 
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
-from i7000.arguments import LARGEST_FLOAT, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, check_clock, check_seconds, check_type
 from i7000.device.logger import Log
-from i7000.errors import EncodeError
+from i7000.device.ram import Ram
+from i7000.errors import ArgumentError, EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
-from i7000.readings import Reading
 from i7000.settings import (
     BaudRate,
-    CjcUpdate,
     DataFormat,
     LineSettings,
     ModbusDataFormat,
     Protocol,
     ReportSettings,
     is_int,
-    is_number,
 )
 from i7000.type_codes import TypeCode
 
-__all__ = ["NEWEST", "Eeprom", "Inputs", "Ram", "Sample", "State", "factory", "power_on"]
+__all__ = ["NEWEST", "Eeprom", "Inputs", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
 """The latest firmware that the manual names: what a module has that is not said to have another (E113)."""
@@ -169,10 +166,11 @@ _Frozen = TypeVar("_Frozen")
 
 
 def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
-    """Copy a frozen value with changes, which are not checked: what is frozen is its own dictionary."""
+    """Copy a frozen value with changes, whose values are not checked: what is frozen is its own dictionary."""
     fields = vars(value) | changes
     if len(fields) != len(vars(value)):
-        raise TypeError(f"{type(value).__name__} has no {fields.keys() - vars(value).keys()}")
+        name, *_ = (name for name in changes if name not in vars(value))
+        raise ArgumentError(name, changes[name], ", ".join(vars(value)), f"{type(value).__name__} has no {name}")
     copy = object.__new__(type(value))
     object.__setattr__(copy, "__dict__", fields)
     return copy
@@ -197,81 +195,13 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
         firmware=NEWEST if firmware is None else firmware,
         type_codes=(model.default_type or TypeCode.J,) * inputs,
         report_settings=ReportSettings(fast_mode=model.fast_mode_default),
-        name=(model.series + model.suffix.replace("-", "")).upper()[:6],
+        name=model.factory_name,
         protocol=max(model.protocols),
         channel_mask=(1 << inputs) - 1,
         channel_offsets=zeros,
         channel_cjc_offsets=zeros,
         open_wire_detection=model.open_wire_detection,
     )
-
-
-Sample = tuple[tuple[TypeCode, Reading], ...]
-"""The type of each channel and what it read, at one moment."""
-
-# --- what is not ------------------------------------------------------------------------------------------------------
-
-
-@frozen(slots=False)
-class Ram:
-    """What a module forgets without power.
-
-    Time: moments are those of the clock that `i7000.device.step` is given.
-    Manual: 2.2, 2.21, 2.31, 2.32, 2.34, A.1, A.2.
-    """
-
-    address: int
-    """What it answers to: 00 after power-on in INIT mode."""
-    line_settings: LineSettings
-    checksum: bool
-    protocol: Protocol
-    init_mode: bool
-    """Whether power came with the INIT switch set."""
-    init_switch: bool
-    """Whether the switch is set now (E17)."""
-    fed_at: float
-    """When the host watchdog last heard of the host."""
-    sampled: Sample | None = None
-    """What the channels read at the last ``#**``."""
-    sampled_data_told: bool = False
-    calibration_enabled: bool = False
-    soft_init_timeout: int = 0
-    """Seconds."""
-    soft_init_until: float | None = None
-    """Until when line and checksum can be changed (E107)."""
-    cjc_update: CjcUpdate = CjcUpdate.STARTED
-    """Not kept without power: power-on starts the update, the default (E115)."""
-    held_cold_junction: float | None = None
-    """The cold junction's temperature when its update ended, in degrees Celsius; None while it is updated."""
-    reset_status_told: bool = False
-
-    def __attrs_post_init__(self) -> None:
-        for name, kinds in _KEPT.items():
-            if not isinstance(getattr(self, name), kinds):
-                allowed = " or ".join(kind.__name__ for kind in kinds)
-                raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
-        if not is_int(self.address, 0, 0xFF):
-            raise EncodeError("address", self.address, "00..FF", "2")
-        for name in _TIMES:
-            value = getattr(self, name)
-            if value is not None and not is_number(value):
-                raise EncodeError(name, value, "a finite number", "")
-        if not is_int(self.soft_init_timeout, 0, 0xFF):
-            raise EncodeError("soft_init_timeout", self.soft_init_timeout, "00..FF", "2.34")
-        if not all(isinstance(it, tuple) and tuple(map(type, it)) == (TypeCode, Reading) for it in self.sampled or ()):
-            raise EncodeError("sampled", self.sampled, "type code and reading of each channel", "2.2")
-
-
-_KEPT: dict[str, tuple[type, ...]] = {
-    "address": (int,), "line_settings": (LineSettings,), "checksum": (bool,), "protocol": (Protocol,),
-    "init_mode": (bool,), "init_switch": (bool,), "fed_at": (int, float), "sampled": (tuple, NoneType),
-    "sampled_data_told": (bool,), "calibration_enabled": (bool,), "soft_init_timeout": (int,),
-    "soft_init_until": (int, float, NoneType), "cjc_update": (CjcUpdate,),
-    "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
-}  # fmt: skip
-"""What each field of `Ram` can be."""
-_TIMES = ("fed_at", "soft_init_until", "held_cold_junction")
-"""The fields of `Ram` that must be finite."""
 
 
 # --- a module with power ----------------------------------------------------------------------------------------------
@@ -313,17 +243,17 @@ class State:
     """When it was last heard of, which makes no difference to what it is."""
 
     def __attrs_post_init__(self) -> None:
-        if not is_number(self.clock):
-            raise EncodeError("clock", self.clock, "a finite number of seconds", "")
+        check_seconds("clock", self.clock)
 
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
         """Change the EEPROM.
 
-        Errors: `EncodeError` for what no module can have stored; only what changes is looked at.
+        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what no module can have stored;
+            only what changes is looked at.
         """
+        eeprom = _copied(self.eeprom, changes)
         if "model" in changes:  # by which nearly everything is measured
             return State(evolve(self.eeprom, **changes), self.ram, clock=self.clock)
-        eeprom = _copied(self.eeprom, changes)
         for name, value in changes.items():
             stored = _STORED[name]
             stored.validator(eeprom, stored, value)  # type: ignore[misc] # all of them have one
@@ -335,8 +265,13 @@ class State:
         return _state(eeprom, self.ram, profile, inputs, self.clock)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
-        """Change the RAM."""
+        """Change the RAM.
+
+        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what it cannot hold.
+        """
         ram = _copied(self.ram, changes)
+        for name in changes:
+            ram.check(name)
         same = ram.checksum == self.ram.checksum
         profile = self.profile if same else profile_of(self.eeprom, checksum=ram.checksum)
         return _state(self.eeprom, ram, profile, self.inputs, self.clock)

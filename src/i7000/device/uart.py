@@ -8,10 +8,10 @@ from itertools import pairwise
 
 from attrs import field
 
-from i7000.arguments import check_int, check_type
+from i7000.arguments import check_int, check_type, is_number
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
-from i7000.settings import BaudRate, LineSettings, is_int, is_number
+from i7000.settings import BaudRate, LineSettings, is_int
 
 __all__ = ["Uart", "hear_at"]
 

@@ -1,9 +1,42 @@
-"""What traffic means, for those who listen: frames found in lines of text, in any spelling.
+"""What traffic means, for those who listen.
 
-It does no I/O. `i7000.dcon` and `i7000.modbus` decode what is found here.
+`find` finds frames in a line of text, in any spelling; `pieces` those of a log. `hear` and `hear_frame` say what they
+mean, with what is `Known` of each module by then.
+
+It does no I/O: your program reads the file or the port, and hands over lines or bytes.
 """
 
-from i7000.dissect.finder import Found, Kind, find
+from i7000.dissect.dcon import meanings
+from i7000.dissect.finder import find
+from i7000.dissect.found import Found, Kind
+from i7000.dissect.heard import Direction, Heard, Line, Place
+from i7000.dissect.known import Fact, Knowledge, Known, Module, Origin
+from i7000.dissect.line import flush, hear, hear_frame
+from i7000.dissect.meaning import ChannelReading, Field, Fit, Item, Meaning
 from i7000.dissect.transcript import Piece, pieces
 
-__all__ = ["Found", "Kind", "Piece", "find", "pieces"]
+__all__ = [
+    "ChannelReading",
+    "Direction",
+    "Fact",
+    "Field",
+    "Fit",
+    "Found",
+    "Heard",
+    "Item",
+    "Kind",
+    "Knowledge",
+    "Known",
+    "Line",
+    "Meaning",
+    "Module",
+    "Origin",
+    "Piece",
+    "Place",
+    "find",
+    "flush",
+    "hear",
+    "hear_frame",
+    "meanings",
+    "pieces",
+]

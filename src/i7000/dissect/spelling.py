@@ -10,7 +10,19 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-__all__ = ["Byte", "decimal_runs", "hex_runs", "literal_runs", "loose_hex_runs", "text_of"]
+from i7000.dissect.patterns import pattern
+
+__all__ = [
+    "Byte",
+    "Run",
+    "decimal_runs",
+    "hex_runs",
+    "literal_runs",
+    "loose_hex_runs",
+    "text_of",
+    "wire_of",
+    "without_numbers",
+]
 
 
 class Byte(NamedTuple):
@@ -26,29 +38,53 @@ class Byte(NamedTuple):
 
 Run = list[Byte]
 
-_DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
-_TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
-_NUMBERS = re.compile(
-    rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
-    r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
-    r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+
+def wire_of(run: Run) -> bytes:
+    """Return the bytes of a run."""
+    return bytes([byte[0] for byte in run])
+
+
+_DATE = r"\d{3}([-/.])\d\d?\1\d\d?|\d?([/.])\d\d?\2\d{2,4}"
+_TIME = r"\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
+_UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
+_NUMBERS = pattern(
+    rf"\d(?:(?<![\w:.\-/].)(?:(?:{_DATE})(?:[T_ ]+\d{_TIME})?|{_TIME}|\d*\.\d+)(?!\w|[:.\-/]\w)"
+    rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
+    re.DOTALL,
 )
-"""What looks like bytes and is none."""
+"""Dates, times, decimal fractions, and numbers with a unit: what looks like bytes and is none.
+
+All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
+"""
+_OFFSET = pattern(
+    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$)))"
+)
+"""The offset at the start of a row of a dump."""
 
 
-def _without_numbers(text: str) -> str:
+def without_numbers(text: str) -> str:
     """Cross out dates, times and offsets by letters, so that no run goes through them."""
+    offset = _OFFSET.match(text)
+    if offset:
+        text = "z" * offset.end() + text[offset.end() :]
     return _NUMBERS.sub(lambda found: "z" * len(found[0]), text)
 
 
-_HEX = re.compile(
-    r"\\[xX]([0-9A-Fa-f]{2})|\\u00([0-9A-Fa-f]{2})"
-    r"|(?<![0-9A-Za-z])(?:0[xX]|&[hH]|16#)?((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
-    r"|(?<![0-9A-Za-z])0[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
+_HEX = pattern(
+    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]|u00)([0-9A-Fa-f]{2})"
+    r"|(?<![0-9A-Za-z].)(?:(?<=0)[xX]|(?<=&)[hH]|(?<=1)6#)((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
+    r"|(?<![0-9A-Za-z].)(?<=0)[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
+    r"|(?<![0-9A-Za-z].)(?<=[0-9A-Fa-f])[0-9A-Fa-f](?:[0-9A-Fa-f]{2})*[hHuU]?(?![0-9A-Za-z]))",
+    re.DOTALL,
 )
-_LOOSE_HEX = re.compile(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
-_DECIMAL = re.compile(r"(?<![0-9A-Za-z])(\d{1,3})(?![0-9A-Za-z])")
-_BETWEEN = re.compile(r"[\W_]{0,8}")
+"""A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
+_LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
+_DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
+_BETWEEN = pattern(r"[\W_]{0,8}|[\W_]{1,4}(?:CRC|crc)(?:16)?[\W_]{1,4}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
+"""What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
+_USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
+_IN_A_ROW = pattern(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
+"""Numbers enough for a frame."""
 
 
 def hex_runs(text: str) -> Iterator[Run]:
@@ -57,23 +93,25 @@ def hex_runs(text: str) -> Iterator[Run]:
     >>> [[byte.value for byte in run] for run in hex_runs("TX [01][04], then 0x1F")]
     [[1, 4], [31]]
     """
-    return _runs(_without_numbers(text), _HEX, _pairs)
+    return _runs(text, _HEX, _pairs)
 
 
 def loose_hex_runs(text: str) -> Iterator[Run]:
     """Find bytes of one or two hex digits: ``1 4 0 CA``."""
-    return _runs(_without_numbers(text), _LOOSE_HEX, lambda word: _one(word, 16))
+    return _runs(text, _LOOSE_HEX, lambda word: _one(word, 16)) if _IN_A_ROW.search(text) else iter(())
 
 
 def decimal_runs(text: str) -> Iterator[Run]:
-    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``."""
-    return _runs(text, _DECIMAL, lambda word: _one(word, 10))
+    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``; of a signed byte too: ``[1, -54]``."""
+    return _runs(text, _DECIMAL, lambda word: _one(word, 10)) if _IN_A_ROW.search(text) else iter(())
 
 
 def _runs(text: str, words: re.Pattern[str], read: Callable[[re.Match[str]], Run]) -> Iterator[Run]:
     run: Run = []
+    end = 0
     for word in words.finditer(text):
-        if run and not _BETWEEN.fullmatch(text, run[-1].end, word.start()):
+        start = word.start()
+        if run and text[end:start] not in _USUALLY_BETWEEN and not _BETWEEN.fullmatch(text, end, start):
             yield run
             run = []
         read_bytes = read(word)
@@ -81,23 +119,26 @@ def _runs(text: str, words: re.Pattern[str], read: Callable[[re.Match[str]], Run
             yield run
             run = []
         run += read_bytes
+        end = word.end()
     if run:
         yield run
 
 
 def _pairs(word: re.Match[str]) -> Run:
-    group = word.lastindex or 0
-    digits, start, last = word[group], word.start(group), word.end()
+    start, last = word.span()
+    group = word.lastindex
+    digits = word[group] if group else word[0].rstrip("hHuU")
     if len(digits) <= len("FF"):
-        return [Byte(int(digits, 16), word.start(), last, 1)]
+        return [Byte(int(digits, 16), start, last, 1)]
+    start = word.start(group or 0)
     count = len(digits) // 2
     ends = [start + 2 * at + 2 for at in range(count - 1)] + [last]
-    return [Byte(int(digits[2 * at : 2 * at + 2], 16), start + 2 * at, ends[at], count) for at in range(count)]
+    return [Byte(value, start + 2 * at, ends[at], count) for at, value in enumerate(bytes.fromhex(digits))]
 
 
 def _one(word: re.Match[str], base: int) -> Run:
     value = int(word[1], base)
-    return [Byte(value, *word.span(), 1)] if value <= 0xFF else []
+    return [Byte(value & 0xFF, *word.span(), 1)] if -0x80 <= value <= 0xFF else []
 
 
 # --- text with escapes ------------------------------------------------------------------------------------------------
@@ -106,10 +147,10 @@ _LETTERS = {
     "a": 7, "b": 8, "t": 9, "n": 10, "v": 11, "f": 12, "r": 13, "e": 27, "s": 32,
     "\\": 0x5C, "'": 0x27, '"': 0x22,
 }  # fmt: skip
-_C = re.compile(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
-_LABVIEW = re.compile(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
-_LITERAL = re.compile(r"""(["'`])((?:\\.|(?!\1)[^\\])*)\1""")
-_BARE = re.compile(r"\\.*\\[^\s\"'`\])}>,;]*")
+_C = pattern(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
+_LABVIEW = pattern(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
+_QUOTES = pattern(r"""(?s)\\.|["'`]""")
+_BARE = pattern(r"\\.*\\[^\s\"'`\])}>,;]*")
 """Characters from the first escape to the end of the last."""
 
 
@@ -121,7 +162,7 @@ def literal_runs(text: str) -> Iterator[tuple[Run, bool]]:
     """
     if "\\" not in text:
         return
-    spans = [found.span(2) for found in _LITERAL.finditer(text) if "\\" in found[2]]
+    spans = [(start, end) for start, end in _quoted(text) if text.find("\\", start, end) >= 0]
     bare = None if spans else _BARE.search(text)
     if bare:
         spans = [bare.span()]
@@ -130,6 +171,23 @@ def literal_runs(text: str) -> Iterator[tuple[Run, bool]]:
             run = [_character(one, 8 if escapes is _C else 16) for one in escapes.finditer(text, start, end)]
             if run and all(byte.value <= 0xFF for byte in run):
                 yield run, escapes is _C and not bare
+
+
+def _quoted(text: str) -> Iterator[tuple[int, int]]:
+    """Find what stands in quotes; one that is never closed is an apostrophe."""
+    marks = {"'", '"', "`"}
+    at = 0
+    while True:
+        opened, start = "", at
+        for mark in _QUOTES.finditer(text, at):
+            if not opened and mark[0] in marks:
+                opened, start = mark[0], mark.end()
+            elif mark[0] == opened:
+                yield start, mark.start()
+                opened, at = "", mark.end()
+        if not opened:
+            return
+        marks.discard(opened)
 
 
 def _character(one: re.Match[str], base: int) -> Byte:
@@ -143,19 +201,24 @@ def _character(one: re.Match[str], base: int) -> Byte:
     return Byte(value, *one.span(), 1)
 
 
-_ENDS = r"""
-    [(<\[{] (?: CR | cr | Cr ) [)>\]}] | [<\[{(] (?:0x)? 0?[dD] [>\]})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
-    | \\r | \^M | \#13 (?!\d) | &\#13; | %0[dD] | \u240d | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+_BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
+"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13h."""
+_ENDS = rf"""
+    (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD]
+    | \\015 | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d
+    | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
 """
-_LINE_FEEDS = r"""
-    [(<\[{] (?: LF | lf | Lf | NL ) [)>\]}] | [<\[{(] (?:0x)? 0?[aA] [>\]})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | \#10 (?!\d) | &\#10; | %0[aA] | \u240a | \n
+_LINE_FEEDS = rf"""
+    [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
+    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
 """
-_SPELLED = re.compile(
+_SPELLED = pattern(
     rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"
     r"| \\x(?P<hex>[0-9A-Fa-f]{2}) | \\u00(?P<unicode>[0-9A-Fa-f]{2}) | \\(?P<octal>[0-3][0-7]{2})"
     r"| (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)"
 )
+_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
+"""How all of these begin."""
 _CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
 
 
@@ -167,6 +230,8 @@ def text_of(text: str) -> tuple[str, Sequence[int]]:
     >>> text_of("#01<CR>")[0]
     '#01\r'
     """
+    if not _MAY_SPELL.search(text):
+        return text, range(len(text) + 1)
     characters: list[str] = []
     places: list[int] = []
     at = 0

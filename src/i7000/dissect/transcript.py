@@ -5,17 +5,21 @@ put together only where nothing else can be made of its parts.
 """
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
-from attrs import frozen
-
-from i7000.dissect.finder import Found, Kind, bytes_of, find, frames_of
-from i7000.modbus import LONGEST_FRAME
+from i7000 import dcon, modbus
+from i7000.dissect.damage import in_place_of_a_frame
+from i7000.dissect.finder import read_line, without_end
+from i7000.dissect.found import Found, Kind
+from i7000.dissect.in_bytes import frames_of
+from i7000.dissect.plain import find_plain
+from i7000.dissect.repeats import is_repeat
+from i7000.settings import Protocol
 
 __all__ = ["Piece", "pieces"]
 
 
-@frozen
-class Piece:
+class Piece(NamedTuple):
     """A frame, or a line in which there is none."""
 
     number: int
@@ -26,10 +30,15 @@ class Piece:
     kind: Kind | None
     """None: there is no frame."""
     wire: bytes
+    same_as: int | None = None
+    """The line before, if it has the same frame and a logger printed that twice; see `i7000.dissect.repeats`."""
 
 
-@frozen
-class _Part:
+_new = tuple.__new__
+"""What a `Piece` is made with where most are made: its own ``__new__`` takes twice as long."""
+
+
+class _Part(NamedTuple):
     """A line that spells bytes which are no frame yet."""
 
     number: int
@@ -38,40 +47,91 @@ class _Part:
     wire: bytes
 
 
-def pieces(lines: Iterable[tuple[int, str]]) -> Iterator[Piece]:
+def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -> Iterator[Piece]:
     r"""Find the frames in numbered lines.
+
+    Special: `protocol` is the one that is expected, if it is known: a line that can be meant for a frame of it is
+        damaged, and not a line without a frame.
 
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
     """
+    marked = _Repeats().marked
     parts: list[_Part] = []
-    for number, text in lines:
-        found = find(text)
-        wire = b"" if any(it.kind is not Kind.DAMAGED for it in found) else bytes_of(text)
-        if not wire:
-            yield from _apart(parts)
+    for number, line in lines:
+        text = without_end(line) if line[-1:] == "\n" else line
+        plain = find_plain(text)
+        found: tuple[Found, ...] = ()
+        if plain is None:
+            found, part = read_line(text)
+            if part and (parts or _begins(part)):
+                parts.append(_Part(number, text, found, part))
+                yield from map(marked, _complete(parts, protocol))
+                continue
+        if parts:
+            yield from map(marked, _apart(parts, protocol))
             parts = []
-            yield from _of_line(number, text, found)
-            continue
-        parts.append(_Part(number, text, found, wire))
-        while sum(len(part.wire) for part in parts) > LONGEST_FRAME:
-            yield from _apart(parts[:1])
-            del parts[0]
-        whole = _whole(parts)
-        if whole is not None:
-            yield from _apart(parts[:whole])
-            yield from _joined(parts[whole:])
-            parts = []
-    yield from _apart(parts)
+        if plain is None:
+            yield from map(marked, _of_line(number, text, found, protocol))
+        else:
+            yield marked(_new(Piece, (number, number, text, plain[0], plain[1], None)))
+    yield from map(marked, _apart(parts, protocol))
+
+
+class _Repeats:
+    """The last frame that was on the wire, which a logger may print again."""
+
+    def __init__(self) -> None:
+        self._first = Piece(0, 0, "", None, b"")
+        self._last = 0
+
+    def marked(self, piece: Piece) -> Piece:
+        """Return the piece, marked if it is a repeat."""
+        number, last, _, _, wire, _ = piece
+        if wire in self._first[4] and wire and number == self._last + 1 and _repeats(self._first, piece):
+            piece = piece._replace(same_as=self._first.number)
+        else:
+            self._first = piece
+        self._last = last
+        return piece
+
+
+def _repeats(first: Piece, piece: Piece) -> bool:
+    """Return whether a frame, or bytes from the middle of one, are those of a line before."""
+    is_same = piece.wire == first.wire or piece.kind is Kind.DAMAGED
+    return is_same and piece.text != first.text and is_repeat(first.text, piece.text)
+
+
+def _complete(parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
+    """Take off the list what is a whole frame by now, and what is too long for one."""
+    while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
+        yield from _apart(parts[:1], protocol)
+        del parts[0]
+    whole = _whole(parts)
+    if whole is not None:
+        yield from _apart(parts[:whole], protocol)
+        yield from _joined(parts[whole:])
+        parts.clear()
+
+
+def _begins(wire: bytes) -> bool:
+    """Return whether bytes are a frame of which the end is missing."""
+    return wire in (modbus.split(wire)[1], dcon.split(wire)[1])
 
 
 def _whole(parts: list[_Part]) -> int | None:
-    """From which of the parts on they are whole frames."""
-    for first in range(len(parts) - 1):
-        wire = b"".join(part.wire for part in parts[first:])
-        if sum(end - start for _, start, end in frames_of(wire)) == len(wire):
-            return first
-    return None
+    """From which of the parts on they are whole frames; None if they are not."""
+    begins = {0: 0}
+    for number, part in enumerate(parts):
+        begins[max(begins) + len(part.wire)] = number + 1
+    end = max(begins)
+    first = None
+    for _, start, stop in reversed(frames_of(b"".join(part.wire for part in parts))):
+        if stop != end:
+            break
+        end = start
+        first = begins.get(start, first)
+    return first if first is not None and first < len(parts) - 1 else None
 
 
 def _joined(parts: list[_Part]) -> Iterator[Piece]:
@@ -81,12 +141,17 @@ def _joined(parts: list[_Part]) -> Iterator[Piece]:
         yield Piece(parts[0].number, parts[-1].number, text, kind, wire[start:end])
 
 
-def _apart(parts: Iterable[_Part]) -> Iterator[Piece]:
+def _apart(parts: Iterable[_Part], protocol: Protocol | None) -> Iterator[Piece]:
     for part in parts:
-        yield from _of_line(part.number, part.text, part.found)
+        yield from _of_line(part.number, part.text, part.found, protocol)
 
 
-def _of_line(number: int, text: str, found: tuple[Found, ...]) -> Iterator[Piece]:
+def _of_line(number: int, text: str, found: tuple[Found, ...], protocol: Protocol | None) -> Iterator[Piece]:
+    nothing_else = protocol is not None and all(it.kind is Kind.DAMAGED for it in found)
+    damaged = in_place_of_a_frame(text, protocol) if nothing_else or not found else None
+    if damaged is not None:
+        yield Piece(number, number, text, Kind.DAMAGED, damaged)
+        return
     if not found and text.strip():
         yield Piece(number, number, text, None, b"")
     at = 0

@@ -1,5 +1,10 @@
 """A driver for an event loop: asyncio, the file descriptor of a pyserial port (POSIX) and `i7000.host`."""
 
+if __name__ == "__main__":  # before the imports, which take longer than all else
+    from i7000_cli import end_at_ctrl_c
+
+    end_at_ctrl_c()
+
 import asyncio
 from collections.abc import Sequence
 from typing import Any, overload

@@ -1,5 +1,10 @@
 """A driver that waits: pyserial and `i7000.host`, nothing else."""
 
+if __name__ == "__main__":  # before the imports, which take longer than all else
+    from i7000_cli import end_at_ctrl_c
+
+    end_at_ctrl_c()
+
 from collections.abc import Sequence
 from time import monotonic
 from typing import Any, overload

@@ -1,5 +1,6 @@
 """What the example drivers are told and what they print: the same for both."""
 
+import sys
 from argparse import ArgumentParser
 from collections.abc import Sequence
 from typing import Any, TypeVar
@@ -71,8 +72,12 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
 
 
 def open_port(task: Task) -> serial.Serial:
-    """Open the port with the settings of the line."""
+    """Open the port with the settings of the line; if that fails, end the program with the reason."""
     line = task.bus.line
     rate = BaudRate(line.baud_rate).bits_per_second
     form = line.character_format
-    return serial.serial_for_url(task.port, rate, parity=form.parity, stopbits=form.stop_bits)
+    try:
+        return serial.serial_for_url(task.port, rate, parity=form.parity, stopbits=form.stop_bits)
+    except (OSError, ValueError) as error:  # the latter for a URL that pyserial does not know
+        sys.stderr.write(f"{task.port}: {error}\n")
+        raise SystemExit(2) from None

@@ -17,13 +17,13 @@ from typing import Any, Generic, Never, TypeVar, overload
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
-from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_seconds, check_type, is_number
 from i7000.errors import DecodeError, EncodeError, Noise, StateError
 from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
 from i7000.host.exchange import Exchange, answers, finish, split
 from i7000.profile import Profile
-from i7000.settings import BaudRate, LineSettings, is_number
+from i7000.settings import BaudRate, LineSettings
 
 __all__ = ["Bus", "Policy", "next_deadline", "receive", "send", "wake"]
 
@@ -109,8 +109,7 @@ class Bus(Generic[R]):
                 allowed = " or ".join(kind.__name__ for kind in kinds)
                 raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
         for name in _TIMES:
-            if not is_number(getattr(self, name)):
-                raise EncodeError(name, getattr(self, name), "a finite number of seconds", "")
+            check_seconds(name, getattr(self, name))
         if not isinstance(self.line.baud_rate, BaudRate):
             raise EncodeError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
 

@@ -8,7 +8,7 @@ from typing import Annotated
 from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import Request, Response, SettingResult
 from i7000.profile import Profile
 from i7000.settings import Filter, channels_of, mask_of
@@ -52,7 +52,7 @@ class TypeCodeSetting(Response):
     section = "3.3.5"
     title = "type code"
 
-    type_code: layout.TypeCodeByte
+    type_code: items.TypeCodeByte
 
 
 @frozen
@@ -69,7 +69,7 @@ class ReadTypeCode(Request[TypeCodeSetting]):
     title = "type code"
     availability = Availability.M_SERIES
 
-    channel: layout.Byte
+    channel: items.Byte
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel that the module does not have."""
@@ -102,8 +102,8 @@ class SetTypeCode(Request[TypeCodeResult]):
     title = "type code"
     availability = Availability.M_SERIES
 
-    channel: layout.Byte
-    type_code: layout.TypeCodeByte
+    channel: items.Byte
+    type_code: items.TypeCodeByte
 
     def check(self, profile: Profile) -> None:
         """Refuse a channel or type that the module does not have."""
@@ -124,7 +124,7 @@ class ChannelMask(Response):
     section = "3.3.8"
     title = "channel mask"
 
-    mask: layout.Mask
+    mask: items.Mask
 
     def reserved_bits(self, request: "ReadChannelMask", profile: Profile) -> int:  # noqa: ARG002 - of the module
         """Tell the bits that should be zero and are not: of channels that the module does not have."""
@@ -175,7 +175,7 @@ class SetChannelMask(Request[ChannelMaskResult]):
     title = "channel mask"
     availability = Availability.M_SERIES
 
-    mask: layout.Mask
+    mask: items.Mask
 
     def check(self, profile: Profile) -> None:
         """Refuse channels that the module does not have."""
@@ -191,7 +191,7 @@ def _settings(settings: int) -> str:
     return ", ".join(words)
 
 
-_SettingsByte = Annotated[int, layout.byte(_settings)]
+_SettingsByte = Annotated[int, items.byte(_settings)]
 
 
 @frozen

@@ -12,7 +12,7 @@ from i7000.arguments import check_type
 from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import Message, Request, Response, SettingResult
 from i7000.profile import Profile
 
@@ -60,7 +60,7 @@ def _offset(channel: int, offset: int) -> str:
     return f"{offset_in_celsius(channel, offset):+.{1 if channel else 2}f} degC"
 
 
-_OffsetChannel = Annotated[int, layout.byte(_channel)]
+_OffsetChannel = Annotated[int, items.byte(_channel)]
 
 
 @frozen
@@ -76,7 +76,7 @@ class CjcOffset(Response):
     section = "3.3.12"
     title = "CJC offset"
 
-    offset: layout.SignedWord
+    offset: items.SignedWord
 
     def describe(self, request: message.Message | None = None) -> dict[str, str]:
         """Return the fields in words: the unit of the offset is known from `request`."""
@@ -148,7 +148,7 @@ class SetCjcOffset(Request[CjcOffsetResult]):
     availability = Availability.M_7018_M_7019
 
     channel: _OffsetChannel
-    offset: layout.SignedWord
+    offset: items.SignedWord
 
     def describe(self, request: message.Message | None = None) -> dict[str, str]:  # noqa: ARG002 - it is a request
         """Return the fields in words."""
@@ -180,7 +180,7 @@ class CjcEnabled(Response):
     section = "3.3.14"
     title = "CJC switch"
 
-    enabled: layout.Flag = field(kw_only=True)
+    enabled: items.Flag = field(kw_only=True)
 
 
 class ReadCjcEnabled(Request[CjcEnabled]):
@@ -221,7 +221,7 @@ class SetCjcEnabled(Request[CjcEnabledResult]):
     title = "CJC switch"
     availability = Availability.M_7018_M_7019
 
-    enabled: layout.Flag = field(kw_only=True)
+    enabled: items.Flag = field(kw_only=True)
 
 
 @frozen
@@ -236,7 +236,7 @@ class CjcUpdateSetting(Response):
     section = "3.3.16"
     title = "CJC update setting"
 
-    update: layout.UpdateByte
+    update: items.UpdateByte
 
 
 class ReadCjcUpdate(Request[CjcUpdateSetting]):
@@ -277,7 +277,7 @@ class SetCjcUpdate(Request[CjcUpdateResult]):
     title = "CJC update setting"
     availability = Availability.M_7019
 
-    update: layout.UpdateByte
+    update: items.UpdateByte
 
 
 REQUESTS = (

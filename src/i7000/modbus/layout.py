@@ -1,153 +1,58 @@
-"""One statement of a PDU -> its encoder, its decoder and its length.
+"""One statement of a PDU -> its encoder, its decoder, the check of its values, and its length.
 
 A message class has its PDU in `pdu`: tokens with a blank between. Two hex digits are a literal byte, ``00`` a reserved
-one; ``name`` is a byte of the field of that name, ``name:2`` two bytes, high byte first, ``name:4`` four as they are.
-Three tokens have a length of their own and stand last:
-
-* ``name:mask``: a bit for each channel, in 1, 2 or 3 bytes by the profile, high byte first;
-* ``name:bits``: a bit an item, the first in bit 0 of the first byte; padding bits are written as 0, and read as any;
-* ``name:words``: two bytes an item.
-
-The last two follow ``bytes``, the count of their bytes; ``count:2`` where no field has that name is that of items. The
-first use of a class compiles its statement to straight-line code around one `struct.Struct`: encoder, decoder and the
-constructor, which checks the values before it sets them.
+one. Any other token is a field of the class, or follows from the sequence at the end: ``count`` is its number of items
+and ``bytes`` its number of bytes, where no field has that name. ``:2`` and ``:4`` give the bytes of a token, ``:mask``,
+``:bits`` and ``:words`` the form of one that has a length of its own. The first use of a class compiles its statement
+to straight-line code around one `struct.Struct`.
 
 Laws: the constructor takes exactly the values that a field's `Item` accepts; what is written is read back as it was.
+
+>>> from i7000 import modbus
+>>> print(modbus.SetTypeCode.layout.source)
+def check(m):
+    address = m.address
+    if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
+        refuse('address', address)
+    channel = m.channel
+    if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
+        refuse('channel', channel)
+    type_code = m.type_code
+    if not accepts_type_code(type_code):
+        refuse('type_code', type_code)
+<BLANKLINE>
+def encode(m, p):
+    return pack(m.address, 70, 8, 0, m.channel, m.type_code)
+<BLANKLINE>
+def decode(b, p):
+    if len(b) != 6:
+        fail(b, Fault.LENGTH, min(len(b), 6), '', 'address and PDU of 6 bytes')
+    address, literal_1, literal_2, literal_3, channel, type_code, = unpack(b)
+    if literal_3 != 0:
+        fail(b, Fault.RESERVED, 3, '', '00')
+    try:
+        type_code = read_type_code(type_code)
+    except KeyError:
+        fail(b, Fault.VALUE, 5, 'type_code', item_type_code.allowed)
+    m = new(message)
+    set_address(m, address)
+    set_channel(m, channel)
+    set_type_code(m, type_code)
+    return m
 """
 
 import struct
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial, update_wrapper
-from typing import Annotated, Any, NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 from attrs import fields
 
-from i7000 import describe
+from i7000.compiled import check_names, check_source, compiled
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
 from i7000.modbus.frame import WordStructs
+from i7000.modbus.items import MOST_WORDS, Item
 from i7000.profile import Profile
-from i7000.readings import signed
-from i7000.settings import CjcUpdate, LineSettings, Protocol, is_int
-from i7000.type_codes import TypeCode
-
-# --- fields -----------------------------------------------------------------------------------------------------------
-
-
-class Item(NamedTuple):
-    """What a field of a PDU can be."""
-
-    allowed: str
-    """Its values, for messages."""
-    accepts: Callable[[Any], bool]
-    """Whether the field can have this value."""
-    write: str = "{}"
-    """What is on the wire, as an expression of the field."""
-    read: Callable[[Any], Any] | None = None
-    """The field from what is on the wire; `KeyError` where that means nothing."""
-    fault: Fault = Fault.VALUE
-    """What is wrong when `read` raises, or when what was read is not accepted."""
-    bounds: tuple[int, int] | None = None
-    """The range of a plain number: what is looked at before `accepts` is asked, which takes other kinds of int too."""
-    most: int | None = None
-    """The most items of a sequence."""
-    values: Any = None
-    """The type of its values where they are more than numbers or bytes: an enumeration, bool or settings."""
-    describe: Callable[[Any], str] = describe.value
-    """The value in words."""
-
-    def __repr__(self) -> str:
-        """What `help` shows beside a field: the values."""
-        return f"<{self.allowed}>"
-
-
-def _number(low: int, high: int, fault: Fault = Fault.VALUE) -> Item:
-    return Item(f"{low}..{high}", lambda value: is_int(value, low, high), fault=fault, bounds=(low, high))
-
-
-def byte(words: Callable[[int], str] = describe.hex_byte) -> Item:
-    """A byte that is a number, described with `words`."""
-    return _number(0, 0xFF)._replace(describe=words)
-
-
-def _choice(kind: Any) -> Item:  # noqa: ANN401 - bool or an enumeration of codes
-    values = {int(value): value for value in ((False, True) if kind is bool else kind)}
-    allowed = " ".join(map(str, values))
-    return Item(allowed, lambda value: isinstance(value, kind), read=values.__getitem__, values=kind)
-
-
-def _sequence(kind: type, most: int, accepts: Callable[[Any], bool]) -> Item:
-    def all_accepted(value: object) -> bool:
-        return isinstance(value, tuple) and 1 <= len(value) <= most and all(map(accepts, value))
-
-    return Item(
-        f"a tuple of 1 to {most} items ({kind.__name__})", all_accepted, fault=Fault.RANGE, most=most,
-        describe=lambda bits: " ".join(f"{bit:d}" for bit in bits),
-    )  # fmt: skip
-
-
-def _words(most: int) -> Item:
-    def all_words(value: object) -> bool:
-        if not isinstance(value, tuple) or not 1 <= len(value) <= most:
-            return False
-        plain = {int}.issuperset(map(type, value))  # nearly always
-        return 0 <= min(value) <= max(value) <= 0xFFFF if plain else all(is_int(it, 0, 0xFFFF) for it in value)
-
-    return Item(
-        f"a tuple of 1 to {most} items (int)", all_words, fault=Fault.RANGE, most=most,
-        describe=lambda words: " ".join(f"{word:04X}" for word in words),
-    )  # fmt: skip
-
-
-def _bits(most: int) -> Item:
-    return _sequence(bool, most, lambda value: isinstance(value, bool))
-
-
-MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 123
-"""What one frame may ask for or carry."""
-
-Address = Annotated[int, _number(0, 247)._replace(describe=describe.hex_byte)]
-NewAddress = Annotated[int, byte()]
-Byte = Annotated[int, byte(describe.value)]
-Word = Annotated[int, _number(0, 0xFFFF)]
-SignedWord = Annotated[int, _number(-0x8000, 0x7FFF)._replace(write="{} & 0xFFFF", read=signed)]
-BitCount = Annotated[int, _number(1, MOST_BITS, Fault.RANGE)]
-WordCount = Annotated[int, _number(1, MOST_WORDS, Fault.RANGE)]
-WrittenBitCount = Annotated[int, _number(1, MOST_WRITTEN_BITS, Fault.RANGE)]
-WrittenWordCount = Annotated[int, _number(1, MOST_WRITTEN_WORDS, Fault.RANGE)]
-Bits = Annotated[tuple[bool, ...], _bits(MOST_BITS)]
-Words = Annotated[tuple[int, ...], _words(MOST_WORDS)]
-WrittenBits = Annotated[tuple[bool, ...], _bits(MOST_WRITTEN_BITS)]
-WrittenWords = Annotated[tuple[int, ...], _words(MOST_WRITTEN_WORDS)]
-_COIL = {0xFF00: True, 0x0000: False}
-Coil = Annotated[
-    bool, Item("True False", lambda it: isinstance(it, bool), "0xFF00 if {} else 0", _COIL.__getitem__, values=bool)
-]
-Flag = Annotated[bool, _choice(bool)]
-ProtocolByte = Annotated[Protocol, _choice(Protocol)]
-UpdateByte = Annotated[CjcUpdate, _choice(CjcUpdate)]
-TypeCodeByte = Annotated[
-    TypeCode | int,
-    Item(
-        "0..255", lambda it: is_int(it, 0, 0xFF), read=TypeCode.of, values=TypeCode, describe=describe.type_code,
-    ),
-]  # fmt: skip
-LineByte = Annotated[
-    LineSettings,
-    Item(
-        "a LineSettings", lambda it: isinstance(it, LineSettings), "{}.byte", LineSettings.from_byte,
-        values=LineSettings, describe=describe.line_settings,
-    ),
-]  # fmt: skip
-ExceptionFunction = Annotated[
-    int,
-    _number(1, 0x7F)._replace(write="{} | 0x80", read=lambda number: number & 0x7F, describe=describe.hex_byte),
-]
-Mask = Annotated[int, _number(0, 0xFFFFFF)._replace(describe=describe.mask)]
-ResultByte = Annotated[int, byte(lambda result: f"{result:02X}, {'not ' if result else ''}done")]
-Name = Annotated[
-    bytes, Item("4 bytes", lambda it: isinstance(it, bytes) and len(it) == 4, describe=describe.module_name)
-]
 
 # --- bits and words ---------------------------------------------------------------------------------------------------
 
@@ -212,6 +117,10 @@ class Layout:
     """Bytes of address and PDU without the token that has a length of its own."""
     tail: str
     """The form of that token, or empty."""
+    source: str
+    """Of the three functions."""
+    check: Callable[[Any], None]
+    """Refuse values that no message of this class can have."""
     encode: Callable[[Any, Profile | None], bytes]
     """Message and profile -> address and PDU; `EncodeError` for a mask that has no profile, or is too long for it."""
     decode: Callable[[bytes, Profile], Any]
@@ -220,30 +129,47 @@ class Layout:
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
         """Compile the PDU of a message class."""
-        tokens = tokens_of(message.pdu)
-        items: dict[str, Item] = {field.name: field.type.__metadata__[0] for field in fields(message)}
-        fixed = [token for token in tokens if token.width]
-        tail = next((token for token in tokens if not token.width), Token("", ""))
-        form = struct.Struct(">" + "".join(token.form for token in fixed))
+        statement = _Statement.of(message)
+        form = struct.Struct(">" + "".join(token.form for token in statement.fixed))
         names: dict[str, Any] = {
             "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
             "pack_words": _pack_words, "WORDS": _WORDS, "pack_bits": _pack_bits,
             "unpack_bits": _unpack_bits, "pack_mask": _pack_mask, "mask_bytes": _mask_bytes,
-            "fail": _fail, "refuse": partial(_refuse, message.section),
+            "fail": _fail, **check_names(statement.items, message.section),
         }  # fmt: skip
-        for name, item in items.items():
-            names |= {f"accepts_{name}": item.accepts, f"read_{name}": item.read, f"item_{name}": item}
+        for name, item in statement.items.items():
+            names |= {f"read_{name}": item.read, f"item_{name}": item}
             names[f"set_{name}"] = getattr(message, name).__set__
-        keywords = [field.name for field in fields(message) if field.kw_only]
-        constructor = _constructor(tail, items, keywords)
-        lines = (*_encoder(fixed, tail, items), *_decoder(fixed, tail, items, form.size), *constructor)
-        exec(compile("\n".join(lines), f"<layout of {message.__name__}>", "exec"), names)  # noqa: S102 - our statements
-        message.__init__ = update_wrapper(names["construct"], message.__init__)
-        return cls(tokens, form.size, tail.form, names["encode"], names["decode"])
+        lines = (*_checker(statement), "", *_encoder(statement), "", *_decoder(statement, form.size))
+        source = "\n".join(lines)
+        made = compiled(source, f"{message.__module__}.{message.__name__}", names)
+        functions = (made["check"], made["encode"], made["decode"])
+        return cls(tokens_of(message.pdu), form.size, statement.tail.form, source, *functions)
 
-    def check(self, message: Any) -> None:  # noqa: ANN401 - a message
-        """Refuse values that no message can have: the first of its class, made by attrs, is constructed again."""
-        message.__init__(**{field.name: getattr(message, field.name) for field in fields(type(message))})
+
+class _Statement(NamedTuple):
+    """A PDU and the fields of its class."""
+
+    items: dict[str, Item]
+    fixed: tuple[Token, ...]
+    """The tokens before the one that has a length of its own."""
+    tail: Token
+    """That one; it has no form if there is none."""
+
+    @classmethod
+    def of(cls, message: Any) -> "_Statement":  # noqa: ANN401 - a message class
+        items = {field.name: field.type.__metadata__[0] for field in fields(message)}
+        tokens = tokens_of(message.pdu)
+        tail = next((token for token in tokens if not token.width), Token("", ""))
+        return cls(items, tuple(token for token in tokens if token.width), tail)
+
+    def named(self, role: str) -> str:
+        """The field that has a role, or an empty string."""
+        return next((name for name, item in self.items.items() if item.role == role), "")
+
+    def follows(self, token: Token) -> bool:
+        """Whether a token is no field: what it is follows from the sequence at the end."""
+        return bool(token.name) and token.name not in self.items
 
 
 def _mask_bytes(profile: Profile) -> int:
@@ -263,23 +189,29 @@ def _fail(body: bytes, fault: Fault, at: int, field: str, allowed: str) -> None:
     raise DecodeError(fault, body, at, field=field, allowed=allowed)
 
 
-def _refuse(section: str, field: str, value: object, allowed: str) -> None:
-    raise EncodeError(field, value, allowed, section)
-
-
 _PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": "pack_mask({}, p)"}
-_BYTES = {"words": "2 * len(m.values)", "bits": "len(m.values) + 7 >> 3"}
+_BYTES = {"words": "2 * len({})", "bits": "len({}) + 7 >> 3"}
 
 
-def _encoder(fixed: Iterable[Token], tail: Token, items: dict[str, Item]) -> Iterator[str]:
+def _checker(statement: _Statement) -> Iterator[str]:
+    yield from check_source(statement.items)
+    first = statement.named("first")
+    if first:
+        count = statement.named("count") or f"len({statement.tail.name})"
+        yield f"    if {first} + {count} > {_ADDRESSES}:"
+        yield f"        refuse('count', {count}, 'none beyond address 65535')"
+
+
+def _encoder(statement: _Statement) -> Iterator[str]:
+    items, tail = statement.items, statement.tail
     values = []
-    for token in fixed:
+    for token in statement.fixed:
         if token.name in items:
             values.append(items[token.name].write.format(f"m.{token.name}"))
         elif token.name == "bytes":
-            values.append(_BYTES[tail.form])
+            values.append(_BYTES[tail.form].format(f"m.{tail.name}"))
         else:
-            values.append("len(m.values)" if token.name else str(token.literal))
+            values.append(f"len(m.{tail.name})" if token.name else str(token.literal))
     yield "def encode(m, p):"
     packed = f"pack({', '.join(values)})"
     if tail.form:
@@ -287,8 +219,9 @@ def _encoder(fixed: Iterable[Token], tail: Token, items: dict[str, Item]) -> Ite
     yield f"    return {packed}"
 
 
-def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int) -> Iterator[str]:
+def _decoder(statement: _Statement, size: int) -> Iterator[str]:
     """Make the decoder: it looks at the length first, then at ranges, counts, reserved bytes and single values."""
+    items, fixed, tail = statement
     names = [token.name or f"literal_{at}" for at, token in enumerate(fixed)]
     places = [sum(token.width for token in fixed[:at]) for at in range(len(fixed))]
     extra = " + mask_bytes(p)" if tail.form == "mask" else ""
@@ -304,9 +237,10 @@ def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int)
     if tail.form == "mask":
         yield f"    {tail.name} = int.from_bytes(b[{size}:], 'big')"
     elif tail.form:
-        yield from _counted(tail, size, "count" in names)
-    if "start" in names and not tail.form:
-        yield from _beyond(places[names.index("count")])
+        yield from _counted(statement, size)
+    first, count = statement.named("first"), statement.named("count")
+    if first and count:
+        yield from _beyond(first, count, places[names.index(count)])
     code = 3 if fixed[1].literal == _WITH_SUB_FUNCTIONS else 2
     for name, token, at in zip(names[code:], fixed[code:], places[code:], strict=True):
         if not token.name:
@@ -323,43 +257,28 @@ def _decoder(fixed: list[Token], tail: Token, items: dict[str, Item], size: int)
     yield "    return m"
 
 
-def _beyond(at: int) -> Iterator[str]:
+def _beyond(first: str, count: str, at: int) -> Iterator[str]:
     """Refuse a count of items, which stands at `at`, that leads beyond the last address."""
-    yield f"    if start + count > {_ADDRESSES}:"
+    yield f"    if {first} + {count} > {_ADDRESSES}:"
     yield f"        fail(b, Fault.RANGE, {at}, 'count', 'none beyond address 65535')"
 
 
-def _counted(tail: Token, size: int, items_are_counted: bool) -> Iterator[str]:  # noqa: FBT001 - of our own
-    """Read what follows the byte count, the last of `size` bytes; the count of items is before it, if there is one."""
-    name, words = tail.name, tail.form == "words"
+def _counted(statement: _Statement, size: int) -> Iterator[str]:
+    """Read what follows the byte count, the last of `size` bytes; a count of items may stand before it."""
+    name, words = statement.tail.name, statement.tail.form == "words"
     yield f"    if bytes != len(b) - {size}:"
     yield f"        fail(b, Fault.LENGTH, min(len(b), {size} + bytes), 'bytes', 'as many as follow')"
-    if items_are_counted:
-        yield f"    if not 1 <= count <= {MOST_WRITTEN_WORDS if words else MOST_WRITTEN_BITS}:"
+    count = next((token.name for token in statement.fixed[:-1] if statement.follows(token)), "")
+    if count:
+        yield f"    if not 1 <= {count} <= {statement.items[name].most}:"
         yield f"        fail(b, Fault.RANGE, {size - 3}, 'count', item_{name}.allowed)"
-        yield from _beyond(size - 3)
-        yield f"    if bytes != {'2 * count' if words else 'count + 7 >> 3'}:"
+        yield from _beyond(statement.named("first"), count, size - 3)
+        yield f"    if bytes != {f'2 * {count}' if words else f'{count} + 7 >> 3'}:"
         yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', 'as many as the items have')"
     else:
         yield f"    if not 1 <= bytes <= {2 * MOST_WORDS}{' or bytes & 1' if words else ''}:"
         yield f"        fail(b, Fault.COUNT, {size - 1}, 'bytes', item_{name}.allowed)"
     unpacked = f"WORDS[bytes >> 1].unpack_from(b, {size})" if words else f"unpack_bits(b[{size}:])"
     yield f"    {name} = {unpacked}"
-    if items_are_counted and not words:
-        yield f"    {name} = {name}[:count]"
-
-
-def _constructor(tail: Token, items: dict[str, Item], keywords: list[str]) -> Iterator[str]:
-    """Make the constructor: what attrs makes of the fields, but straight to the slots, and the values are looked at."""
-    parameters = [name for name in items if name not in keywords] + ["*"] * bool(keywords) + keywords
-    yield f"def construct(self, {', '.join(parameters)}):"
-    for name, item in items.items():
-        plain = ""
-        if item.bounds:
-            low, high = item.bounds
-            plain = f"not ({name}.__class__ is int and {low} <= {name} <= {high}) and "
-        yield f"    if {plain}not accepts_{name}({name}): refuse({name!r}, {name}, item_{name}.allowed)"
-    if "start" in items:
-        count = "count" if "count" in items else f"len({tail.name})"
-        yield f"    if start + {count} > {_ADDRESSES}: refuse('count', {count}, 'none beyond address 65535')"
-    yield from (f"    set_{name}(self, {name})" for name in items)
+    if count and not words:
+        yield f"    {name} = {name}[:{count}]"

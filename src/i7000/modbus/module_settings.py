@@ -6,7 +6,7 @@ Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; oth
 from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import LAST_ADDRESS, Request, Response, SettingResult
 from i7000.models import Firmware, Model
 from i7000.profile import Profile
@@ -38,7 +38,7 @@ class ModuleName(Response):
     section = "3.3.1"
     title = "module name"
 
-    name: layout.Name
+    name: items.Name
 
     @property
     def series(self) -> str | None:
@@ -86,7 +86,7 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     title = "module address"
     availability = Availability.M_SERIES
 
-    new_address: layout.NewAddress
+    new_address: items.NewAddress
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
         """Refuse an address that no module has."""
@@ -106,8 +106,8 @@ class CommunicationSettings(Response):
     section = "3.3.3"
     title = "communication settings"
 
-    line_settings: layout.LineByte
-    protocol: layout.ProtocolByte
+    line_settings: items.LineByte
+    protocol: items.ProtocolByte
 
 
 class ReadCommunicationSettings(Request[CommunicationSettings]):
@@ -135,8 +135,8 @@ class CommunicationSettingsResult(Response):
     section = "3.3.4"
     title = "communication settings"
 
-    line_result: layout.ResultByte
-    protocol_result: layout.ResultByte
+    line_result: items.ResultByte
+    protocol_result: items.ResultByte
 
 
 @frozen
@@ -153,8 +153,8 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
     title = "communication settings"
     availability = Availability.M_SERIES
 
-    line_settings: layout.LineByte
-    protocol: layout.ProtocolByte
+    line_settings: items.LineByte
+    protocol: items.ProtocolByte
 
     def check(self, profile: Profile) -> None:
         """Refuse a line that the module cannot have."""
@@ -173,9 +173,9 @@ class FirmwareVersion(Response):
     section = "3.3.7"
     title = "firmware version"
 
-    major: layout.Byte
-    minor: layout.Byte
-    build: layout.Byte
+    major: items.Byte
+    minor: items.Byte
+    build: items.Byte
 
     @property
     def firmware(self) -> Firmware | None:

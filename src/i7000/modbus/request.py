@@ -8,7 +8,8 @@ from enum import IntEnum
 from typing import Annotated, ClassVar, Generic, TypeVar
 
 from i7000 import message
-from i7000.modbus.layout import Address, ExceptionFunction, Layout, ResultByte, byte
+from i7000.modbus.items import Address, ExceptionFunction, ResultByte, byte
+from i7000.modbus.layout import Layout
 
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 

@@ -6,7 +6,7 @@ Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kin
 from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
-from i7000.modbus import layout
+from i7000.modbus import items
 from i7000.modbus.request import Request, Response
 from i7000.profile import Profile
 
@@ -46,7 +46,7 @@ class Coils(Response):
     section = "3.4"
     title = "coils"
 
-    values: layout.Bits
+    values: items.Bits
 
 
 @frozen
@@ -63,8 +63,8 @@ class ReadCoils(Request[Coils]):
     title = "coils"
     availability = Availability.ADDRESS_MAP
 
-    start: layout.Word
-    count: layout.BitCount
+    start: items.Start
+    count: items.BitCount
 
 
 @frozen
@@ -80,7 +80,7 @@ class DiscreteInputs(Response):
     section = "3.1"
     title = "discrete inputs"
 
-    values: layout.Bits
+    values: items.Bits
 
 
 @frozen
@@ -97,8 +97,8 @@ class ReadDiscreteInputs(Request[DiscreteInputs]):
     title = "discrete inputs"
     availability = Availability.RANGE_STATUS
 
-    start: layout.Word
-    count: layout.BitCount
+    start: items.Start
+    count: items.BitCount
 
 
 @frozen
@@ -114,7 +114,7 @@ class HoldingRegisters(Response):
     section = "3.4"
     title = "holding registers"
 
-    values: layout.Words
+    values: items.Words
 
 
 @frozen
@@ -131,8 +131,8 @@ class ReadHoldingRegisters(Request[HoldingRegisters]):
     title = "holding registers"
     availability = Availability.ADDRESS_MAP
 
-    start: layout.Word
-    count: layout.WordCount
+    start: items.Start
+    count: items.WordCount
 
 
 @frozen
@@ -148,7 +148,7 @@ class InputRegisters(Response):
     section = "3.2"
     title = "input registers"
 
-    values: layout.Words
+    values: items.Words
 
 
 @frozen
@@ -165,8 +165,8 @@ class ReadInputRegisters(Request[InputRegisters]):
     title = "input registers"
     availability = Availability.M_SERIES
 
-    start: layout.Word
-    count: layout.WordCount
+    start: items.Start
+    count: items.WordCount
 
 
 @frozen
@@ -181,8 +181,8 @@ class SingleCoilWritten(Response):
     section = "3.4"
     title = "coil"
 
-    coil: layout.Word
-    value: layout.Coil
+    coil: items.Word
+    value: items.Coil
 
 
 @frozen
@@ -200,8 +200,8 @@ class WriteSingleCoil(Request[SingleCoilWritten]):
     availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    coil: layout.Word
-    value: layout.Coil
+    coil: items.Word
+    value: items.Coil
 
 
 @frozen
@@ -216,8 +216,8 @@ class SingleRegisterWritten(Response):
     section = "3.4"
     title = "holding register"
 
-    register: layout.Word
-    value: layout.Word
+    register: items.Word
+    value: items.Word
 
 
 @frozen
@@ -234,8 +234,8 @@ class WriteSingleRegister(Request[SingleRegisterWritten]):
     availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    register: layout.Word
-    value: layout.Word
+    register: items.Word
+    value: items.Word
 
 
 @frozen
@@ -250,8 +250,8 @@ class MultipleCoilsWritten(Response):
     section = "3.4"
     title = "coils"
 
-    start: layout.Word
-    count: layout.WrittenBitCount
+    start: items.Start
+    count: items.WrittenBitCount
 
 
 @frozen
@@ -270,8 +270,8 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
     availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    start: layout.Word
-    values: layout.WrittenBits
+    start: items.Start
+    values: items.WrittenBits
 
 
 @frozen
@@ -286,8 +286,8 @@ class MultipleRegistersWritten(Response):
     section = "3.4"
     title = "holding registers"
 
-    start: layout.Word
-    count: layout.WrittenWordCount
+    start: items.Start
+    count: items.WrittenWordCount
 
 
 @frozen
@@ -306,8 +306,8 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
     availability = Availability.ADDRESS_MAP
     broadcast = True
 
-    start: layout.Word
-    values: layout.WrittenWords
+    start: items.Start
+    values: items.WrittenWords
 
     def check(self, profile: Profile) -> None:
         """Refuse more than the module takes at once."""

@@ -146,6 +146,8 @@ def split(
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
+        if lengths and size == lengths[0] and not crc16(buffer):  # It is one frame, as most of a log are.
+            return (buffer,), b""
     if request is not None:
         check_type("request", request, Request)
     return _scan(buffer, side, profile, request, final=False)

@@ -68,19 +68,24 @@ class MemoryFileError(I7000Error, ValueError):
 def held(path: str | os.PathLike[str]) -> Iterator[None]:
     """Keep other simulators from a file for as long as this one uses it.
 
-    Special: a hidden file beside it carries the lock and stays there; the lock itself ends with the process. Temporary
-        files that an interrupted `save` has left are removed.
-    Errors: `MemoryFileError` if another simulator uses the file; that or `OSError` if `save` could not replace it.
+    Special: a hidden file beside it carries the lock and stays there; the lock itself ends with the process. It is
+        beside the file that a symbolic link names. A hard link is not locked: its first `save` makes it a file of its
+        own. Temporary files that an interrupted `save` has left are removed.
+    Errors: `MemoryFileError` if another simulator uses the file; that or `OSError` if `save` could not replace it, and
+        `OSError` if it cannot be locked.
     """
     target = Path(os.path.realpath(path))
     with ExitStack() as locked:
         with _named(path):
             _mode(path)
             target.parent.stat()  # A lock would make a directory that is not there.
+            lock = target.with_name(f".{target.name}.lock")
             try:
-                locked.enter_context(FileLock(target.with_name(f".{target.name}.lock"), timeout=0))
+                locked.enter_context(FileLock(lock, timeout=0))
             except Timeout:
                 raise _unsuitable(path, "is used by another simulator", "one simulator a file") from None
+            except OSError as error:
+                raise OSError(error.errno, f"cannot be locked by {lock.name} beside it: {error.strerror}") from None
             for left in target.parent.glob(f".{glob.escape(target.name)}.{'[0-9a-f]' * 2 * _TOKEN}.tmp"):
                 left.unlink()
         yield

@@ -30,18 +30,12 @@ from i7000 import (
     ReportSettings,
     TypeCode,
 )
-from i7000.device import CAPACITY, Eeprom, Log, LogCommand, Record
+from i7000.device import Eeprom, Log, LogCommand, Record
 
 __all__ = ["FAULTS", "Odd", "WrongError", "check_names", "short", "structured", "told", "unstructured"]
 
 _LAST_MOMENT = 10**12
 """Seconds, either way from 1970, that clocks can differ by."""
-_LOG_LIMITS = {
-    "period": ((0, 24), (0, 59), (0, 59)),
-    "start": ((2000, 2159), (1, 12), (1, 31), (0, 23), (0, 59), (0, 59)),
-    "end": ((2000, 2159), (1, 12), (1, 31), (0, 23), (0, 59), (0, 59)),
-}
-_LONG = 0xFFFFFFFF
 
 
 # --- what is wrong, and where -----------------------------------------------------------------------------------------
@@ -248,21 +242,7 @@ def _log(value: Any, _: object) -> Log:  # noqa: ANN401
     if value is None:
         return Log()
     log: Log = _CONVERTER.structure(value, Log)
-    for name, limits in _LOG_LIMITS.items():
-        for number, (low, high) in zip(getattr(log, name), limits, strict=True):
-            _check_range(name, number, low, high)
-    for name in ("read_index", "last_index"):
-        _check_range(name, getattr(log, name), 0, _LONG)
-    _check_range("records", len(log.records), 0, CAPACITY)
-    for at, record in enumerate(log.records):
-        for name in ("index", "time"):
-            _check_range(f"records[{at}].{name}", getattr(record, name), 0, _LONG)
     return log
-
-
-def _check_range(place: str, number: int, low: int, high: int) -> None:
-    if not low <= number <= high:
-        raise WrongError(f"cannot be {number}", f"{low}..{high}", place)
 
 
 _OVERRIDES = {

@@ -28,10 +28,10 @@ from i7000.dcon import (
     Refused,
     Response,
     encode,
-    layout,
+    parts,
 )
 from i7000.dcon.identity import LONGEST_TIMEOUT
-from i7000.dcon.layout import Part
+from i7000.dcon.parts import Part
 from i7000.fields import FIELD_WIDTHS
 from i7000.names import CHARACTERS, is_name
 from i7000.profile import CJC_OFFSETS
@@ -178,8 +178,8 @@ def names() -> SearchStrategy[str]:
 
 
 def _number(part: Part, profile: Profile, *, accepted: bool) -> SearchStrategy[int]:
-    if part.width == len("SNNNN"):
-        return st.integers(*(CJC_OFFSETS if accepted else (-0xFFFF, 0xFFFF)))
+    if part.signed:
+        return st.integers(*(CJC_OFFSETS if accepted else part.bounds or ()))
     if accepted and part in _LIMITS:
         return st.integers(0, _LIMITS[part](profile))
     digits = len(part.notation) if part.width is None else int(getattr(profile, str(part.width)))
@@ -192,12 +192,12 @@ def _part_of(annotation: Any) -> Part:  # noqa: ANN401 - an Annotated type
 
 
 _LIMITS: dict[Part, Callable[[Profile], int]] = {
-    _part_of(layout.ChannelN): lambda profile: profile.channels - 1,
-    _part_of(layout.ChannelI): lambda profile: profile.channels - 1,
-    _part_of(layout.CalibratedChannel): lambda profile: profile.channels - 1,
-    _part_of(layout.Mask): lambda profile: (1 << profile.channels) - 1,
-    _part_of(layout.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
-    _part_of(layout.Seconds): lambda _: LONGEST_TIMEOUT,
+    _part_of(parts.ChannelN): lambda profile: profile.channels - 1,
+    _part_of(parts.ChannelI): lambda profile: profile.channels - 1,
+    _part_of(parts.CalibratedChannel): lambda profile: profile.channels - 1,
+    _part_of(parts.Mask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(parts.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
+    _part_of(parts.Seconds): lambda _: LONGEST_TIMEOUT,
 }
 """Where a module takes much less than the digits can say: not to be left to `check` alone."""
 

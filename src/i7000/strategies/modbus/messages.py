@@ -12,7 +12,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import EncodeError, Fault, LineSettings, Model, Profile, Protocol, TypeCode
+from i7000 import EncodeError, LineSettings, Model, Profile, Protocol, TypeCode
 from i7000.modbus import (
     BROADCAST,
     REQUESTS,
@@ -31,7 +31,7 @@ from i7000.modbus import (
     WriteMultipleRegisters,
     encode,
     is_answered,
-    layout,
+    items,
 )
 from i7000.modbus.cold_junction import FIRST_CHANNEL
 from i7000.profile import CJC_OFFSETS
@@ -200,10 +200,10 @@ def _part(  # noqa: PLR0911 - a table
     kind: type[Message], attribute: "Attribute[Any]", profile: Profile, values: dict[str, Any]
 ) -> SearchStrategy[Any]:
     """Make all that a field can be beside the `values` of others."""
-    item: layout.Item = cast("Any", attribute.type).__metadata__[0]
-    if attribute.type is layout.Address:
+    item: items.Item = cast("Any", attribute.type).__metadata__[0]
+    if attribute.type is items.Address:
         return st.sampled_from((*_ADDRESSES, *[BROADCAST] * 25)) if _can_be_broadcast(kind) else st.integers(1, 247)
-    if attribute.type is layout.Mask:
+    if attribute.type is items.Mask:
         return st.integers(0, 16**profile.mask_digits - 1)
     if item.values in _TYPES:
         return _TYPES[item.values]
@@ -215,7 +215,7 @@ def _part(  # noqa: PLR0911 - a table
         return _bits(counts) if item.accepts((True,)) else _words(counts)
     if item.bounds:
         low, high = item.bounds
-        return _count(min(high, room)) if item.fault is Fault.RANGE else st.integers(low, high)
+        return _count(min(high, room)) if item.role == "count" else st.integers(low, high)
     return st.binary(min_size=4, max_size=4)  # a name
 
 

@@ -1,6 +1,6 @@
-"""Registers and coils by name: those that a message touches, and those of a model.
+"""The coils, inputs and registers that a Modbus message touches, by name.
 
-Laws: every item that a message touches is told, by the manual's number, if it has a name or not.
+Laws: every item that a message touches is there, with the number of the manual, whether it has a name or not.
 """
 
 from collections.abc import Iterator
@@ -8,10 +8,11 @@ from enum import Enum
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from i7000 import DecodeError, Firmware, LineSettings, Profile, Reading, TypeCode, modbus
+from i7000 import DecodeError, Firmware, LineSettings, Profile, modbus
+from i7000.dissect.meaning import Item
 from i7000.modbus import Area, Kind, Register, RegisterMap
 
-__all__ = ["Cell", "cells", "register_record"]
+__all__ = ["items"]
 
 _AREAS: dict[str, Area] = {
     "01": Area.COIL,
@@ -28,23 +29,6 @@ _LONG = (Kind.UINT32, Kind.RECORD)
 """Kinds of more than one word."""
 
 
-class Cell(NamedTuple):
-    """One thing that a message touches: an item, or the two of a 32-bit number."""
-
-    number: str
-    """The manual's: 40489."""
-    name: str | None
-    """None: the map does not have it, or the model is not known."""
-    channel: int | None
-    value: Any
-    """In units; what was sent, where it has no name; None if nothing was."""
-    unit: str | None
-    text: str | None
-    """The value in words; the word of a reading in hex."""
-    reading: Reading | None = None
-    type_code: TypeCode | None = None
-
-
 class _Place(NamedTuple):
     """What some items that a message touches are, whatever is sent of them: one thing, or the readings of channels."""
 
@@ -56,13 +40,13 @@ class _Place(NamedTuple):
     """Where they are; a row without a name where the map has none."""
     channel: int | None
     """The first channel."""
-    empty: tuple[Cell, ...]
+    empty: tuple[Item, ...]
     """What is told if nothing is sent."""
     part: str
     """Which word of a longer number it is, if that is all there is."""
 
 
-def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile: Profile | None) -> Iterator[Cell]:
+def items(message: modbus.Message, request: modbus.Request[Any] | None, profile: Profile | None) -> Iterator[Item]:
     """Yield the registers that a message touches, by name if the profile is known.
 
     Special: a response without its request does not tell which they are.
@@ -75,7 +59,7 @@ def cells(message: modbus.Message, request: modbus.Request[Any] | None, profile:
     values = _values(message)
     for it in _places(profile, area, starts[0], len(values) or getattr(message, "count", 1)):
         if values:
-            yield from _told(profile, it, values[it.at : it.at + it.used])
+            yield from _valued(profile, it, values[it.at : it.at + it.used])
         else:
             yield from it.empty
 
@@ -117,7 +101,7 @@ def _place(profile: Profile | None, row: Register, address: int, at: int, left: 
     channel = offset if row.count > 1 and row.kind not in _LONG else None
     words = None if row.name or profile is None else "not in the map"
     empty = tuple(
-        Cell(
+        Item(
             Register("", row.area, address + more).number,
             row.name or None,
             None if channel is None else channel + more,
@@ -131,12 +115,12 @@ def _place(profile: Profile | None, row: Register, address: int, at: int, left: 
     return _Place(at, used, row, channel, empty, part)
 
 
-def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
+def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iterator[Item]:
     row, channel = place.row, place.channel
     number, name, _, _, _, words, *_ = empty = place.empty[0]
     if profile is None or not name or place.part:
         raw, remark = _raw(row, sent[0]), place.part or words
-        yield Cell(number, name, channel, sent[0], None, f"{raw}, {remark}" if remark else raw)
+        yield Item(number, name, channel, sent[0], None, f"{raw}, {remark}" if remark else raw)
     elif row.kind is Kind.READING:
         yield from _readings(profile, place, sent)
     else:
@@ -144,34 +128,34 @@ def _told(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iter
         try:
             value = _map(profile).decode(row.name, sent, channels=channels)
         except DecodeError:
-            yield Cell(number, name, channel, sent[0], None, f"{_raw(row, sent[0])}, not defined")
+            yield Item(number, name, channel, sent[0], None, f"{_raw(row, sent[0])}, not defined")
             return
         value = value if channel is None else value[0]
         if row.kind is Kind.RECORD:
             yield from _log(empty, value)
         else:
-            yield Cell(number, name, channel, _plain(value), row.unit, row.describe(value))
+            yield Item(number, name, channel, _plain(value), row.unit, row.describe(value))
 
 
-def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Cell]:
+def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Item]:
     """Yield the readings of channels; a channel that the connecting mode lacks has no type and no reading."""
     first = place.channel or 0
     types = profile.type_codes[first : first + len(sent)]
     if not types:
         (empty,) = place.empty
-        yield Cell(empty.number, empty.name, empty.channel, sent[0], None, f"{sent[0]:04X}")
+        yield Item(empty.number, empty.name, empty.channel, sent[0], None, f"{sent[0]:04X}")
         return
     found = modbus.readings(sent, profile, channel=first)
     for empty, word, reading, type_code in zip(place.empty, sent, found, types, strict=True):
         value, unit, _ = reading
-        yield Cell(empty.number, empty.name, empty.channel, value, unit, f"{word:04X}", reading, type_code)
+        yield Item(empty.number, empty.name, empty.channel, value, unit, f"{word:04X}", reading, type_code)
 
 
 def _raw(row: Register, item: int) -> str:
     return f"{item:d}" if row.area.bits else f"{item:04X}"
 
 
-def _log(empty: Cell, records: tuple[modbus.LogRecord, ...]) -> Iterator[Cell]:
+def _log(empty: Item, records: tuple[modbus.LogRecord, ...]) -> Iterator[Item]:
     """Yield the records of the data logger."""
     for index, record in enumerate(records):
         texts = (f"{it.value:.7g}" if it.value is not None else it.status.value for it in record.readings)
@@ -185,23 +169,3 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - of any register
     if isinstance(value, Firmware):
         return str(value)
     return value.value if isinstance(value, Enum) else value
-
-
-# --- the map of a model -----------------------------------------------------------------------------------------------
-
-
-def register_record(row: Register) -> dict[str, Any]:
-    """A row of the map as ``i7000 registers`` lists it."""
-    return {
-        "number": row.number,
-        "last_number": row.last_number,
-        "name": row.name,
-        "address": row.address,
-        "count": row.count,
-        "access": row.access.value,
-        "kind": row.kind.value,
-        "unit": row.unit,
-        "scale": row.scale,
-        "minimum": row.minimum,
-        "maximum": row.maximum,
-    }

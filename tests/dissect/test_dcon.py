@@ -1,14 +1,16 @@
 """Frames read with groups of profiles, against reading them with each profile by itself."""
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import DataFormat, DecodeError, Firmware, Model, Profile, TypeCode, dcon
-from i7000.cli.dcon import Known, is_command
-from i7000.cli.reader import Reader
+from i7000 import DataFormat, DecodeError, Fault, Firmware, Model, Profile, TypeCode, dcon
+from i7000.dissect import Known, meanings
+from i7000.dissect.dcon import DconReader, is_command
+from i7000.message import Message
 from tests.vectors import dcon_vectors
 
 KNOWN = [
@@ -21,14 +23,14 @@ KNOWN = [
     Known(data_format=DataFormat.HEX),
     Known(types=(TypeCode.V_10,)),
 ]
-READERS = [(known, Reader(known)) for known in KNOWN]
+READERS = [(known, DconReader(known)) for known in KNOWN]
 EXCHANGES = [
     tuple(bytes.fromhex(wire) if wire else None for wire in (vector["command_wire"], vector["response_wire"]))
     for case in dcon_vectors("response", "refused", "silence", "reject")
     for vector in case.values
 ]
 
-Read = set[tuple[dcon.Message, dcon.AnyCommand | None]]
+Read = set[tuple[Message, Message | None]]
 
 
 def read_by_itself(frame: bytes, asked: bytes | None, profile: Profile) -> Iterator[Read]:
@@ -73,7 +75,7 @@ def can_be_asked(asked: bytes, known: Known) -> bool:
     return bool(by_profile(asked, None, profiles))
 
 
-def agree(frame: bytes, asked: bytes | None, known: Known, reader: Reader) -> None:
+def agree(frame: bytes, asked: bytes | None, known: Known, reader: DconReader) -> None:
     """Hold what profiles read in groups against what each of them reads."""
     try:
         meanings = reader.meanings(frame, asked)
@@ -95,8 +97,8 @@ def agree(frame: bytes, asked: bytes | None, known: Known, reader: Reader) -> No
         assert bool(found) == bool(expected)
 
 
-@pytest.mark.parametrize(("known", "reader"), READERS, ids=lambda it: "" if isinstance(it, Reader) else str(it))
-def test_groups_of_profiles_read_what_each_of_them_reads(known: Known, reader: Reader) -> None:
+@pytest.mark.parametrize(("known", "reader"), READERS, ids=lambda it: "" if isinstance(it, DconReader) else str(it))
+def test_groups_of_profiles_read_what_each_of_them_reads(known: Known, reader: DconReader) -> None:
     for command, response in EXCHANGES[:: 1 if known.model else 7]:  # all models are many
         if command and is_command(command):
             agree(command, None, known, reader)
@@ -114,7 +116,7 @@ FRAMES = sorted({frame for exchange in EXCHANGES for frame in exchange if frame}
     st.sampled_from(b"0129AF+-. !>$#"),
 )  # fmt: skip
 def test_groups_of_profiles_read_damaged_frames_alike(
-    known_reader: tuple[Known, Reader], frame: bytes, asked: bytes | None, at: int, byte: int
+    known_reader: tuple[Known, DconReader], frame: bytes, asked: bytes | None, at: int, byte: int
 ) -> None:
     known, reader = known_reader
     damaged = frame[: at % len(frame)] + bytes((byte,)) + frame[at % len(frame) + 1 :]
@@ -123,7 +125,7 @@ def test_groups_of_profiles_read_damaged_frames_alike(
 
 
 def test_meanings_are_in_the_order_of_the_sections() -> None:
-    (first, *_, last) = Reader(Known()).meanings(b"!01050600\r")
+    (first, *_, last) = DconReader(Known()).meanings(b"!01050600\r")
 
     assert [type(it.message).__name__ for it in (first, last)] == ["Configuration", "ChannelMask"]
     assert first.fit.models == tuple(Model)
@@ -131,8 +133,50 @@ def test_meanings_are_in_the_order_of_the_sections() -> None:
 
 def test_the_first_fault_is_that_of_the_factory_defaults() -> None:
     with pytest.raises(DecodeError) as error:
-        Reader(Known(Model.I_7018)).meanings(b"!0105\r", b"$012\r")
+        DconReader(Known(Model.I_7018)).meanings(b"!0105\r", b"$012\r")
 
     with pytest.raises(DecodeError) as expected:
         dcon.decode_response(b"!0105\r", dcon.ReadConfiguration(1), Profile(Model.I_7018))
     assert str(expected.value) == str(error.value)
+
+
+# --- unknown modules --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("frame", "commands"),
+    [
+        (b"$01A\r", [dcon.ReadAnalogInputsHex, dcon.ReadCjcUpdate]),
+        (b"$010C0\r", [dcon.CalibrateCurrentChannelSpan, dcon.CalibrateChannelZero]),
+        (b"#0184\r", [dcon.ReadAnalogInputs, dcon.ReadAnalogInput]),
+        (b"#**\r", [dcon.SynchronizedSampling]),
+    ],
+)
+def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, commands: list[Any]) -> None:
+    assert commands == [type(meaning.message) for meaning in meanings(frame)]
+
+
+@pytest.mark.parametrize(
+    ("frame", "fault", "offset"),
+    [
+        (b"", Fault.LENGTH, 0),
+        (b"$01z\r", Fault.COMMAND, 3),
+        (b"$012B6", Fault.TERMINATOR, 6),
+        (b"x" * 300, Fault.LENGTH, 256),
+        (b"$01A3\r", Fault.VALUE, 4),
+        (b"$017C0X30\r", Fault.CHARACTER, 6),
+    ],
+)
+def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
+    frame: bytes, fault: Fault, offset: int
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        meanings(frame)
+
+    assert (fault, offset) == (caught.value.fault, caught.value.offset)
+
+
+@pytest.mark.parametrize("frame", [b"", b"!01\xff\r", b"!\r", b">zz\r"])
+def test_what_no_module_says_means_nothing(frame: bytes) -> None:
+    with pytest.raises(DecodeError):
+        meanings(frame)

@@ -1,4 +1,4 @@
-"""DCON frames -> what they can mean, to those who know much, little or nothing about the module.
+"""DCON frames -> what they can mean, with much, little or no knowledge of the module.
 
 A frame is read with every profile that fits what is known, and a response together with its command, so that what one
 of the two proves is used for the other. Profiles that read frames alike are tried once: see `_COMMAND_FORM` and
@@ -13,13 +13,20 @@ from functools import cached_property, lru_cache, partial
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
 
+from attrs import evolve
+
 from i7000 import DataFormat, DecodeError, Fault, Profile, Status, TypeCode, dcon
+from i7000.arguments import as_bytes
 from i7000.availability import Availability
-from i7000.cli.dcon import ChannelReading, Fit, Known, Meaning, is_command
+from i7000.dcon.codec import deepest
+from i7000.dissect.known import Fact, Known, Origin
+from i7000.dissect.meaning import ChannelReading, Fit, Meaning
 from i7000.readings import decode_field
 
-__all__ = ["Reader"]
+__all__ = ["DconReader", "is_command", "meanings", "reader"]
 
+_NOTHING_KNOWN = Known()
+_COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
 _REMEMBERED = 256
 """Commands, and sets of profiles, of which the work is not done again: who polls sends the same again and again."""
@@ -38,7 +45,7 @@ class _Group(NamedTuple):
     profile: Profile
     """The first of them."""
     places: tuple[int, ...]
-    """Where they stand among those of the `Reader`."""
+    """Where they stand among those of the `DconReader`."""
 
 
 class _Found(NamedTuple):
@@ -61,8 +68,8 @@ _Read = tuple[_Found, tuple[ChannelReading, ...], DecodeError | None]
 """What was found, its readings, and why the first of them that has no value cannot be one of its type."""
 
 
-class Reader:
-    """Reads frames of modules of which so much is known; it remembers what it needs for the next frame."""
+class DconReader:
+    """Reads frames of a module of which this much is known; it remembers what it needs for the next frame."""
 
     def __init__(self, known: Known) -> None:
         self._known = known
@@ -80,7 +87,7 @@ class Reader:
             given, as a misfit, only if no other type or data format fits.
         Errors: `DecodeError` if it means nothing.
 
-        >>> [type(meaning.message).__name__ for meaning in Reader(Known()).meanings(b"$01A\r")]
+        >>> [type(meaning.message).__name__ for meaning in DconReader(Known()).meanings(b"$01A\r")]
         ['ReadAnalogInputsHex', 'ReadCjcUpdate']
         """
         stages = self._commands if is_command(frame) else self._alone if asked is None else self._answers(asked)
@@ -91,7 +98,7 @@ class Reader:
             for attempt in attempts:
                 try:
                     for found in attempt(frame):
-                        readings, misfit = _readings(found.message, found.command, found.group.profile)
+                        readings, misfit = _readings(found.message, found.command, found.group.profile, self._known)
                         (misfits if misfit else read).append((found, readings, misfit))
                 except DecodeError as fault:
                     faults.append(fault)
@@ -99,7 +106,7 @@ class Reader:
                 return self._meanings(read)
         if misfits:
             return self._meanings(misfits)
-        raise faults[0]
+        raise faults[0] if self._known.model else _nearest(faults)
 
     def _meanings(self, read: list[_Read]) -> tuple[Meaning, ...]:
         if len(read) == 1:  # nearly always, if the model is known
@@ -116,13 +123,24 @@ class Reader:
 
     def _meaning(self, read: _Read, places: _Groups) -> Meaning:
         found, readings, misfit = read
-        known, fit = self._known, self._fit(places)
-        assumed: tuple[str, ...] = ()
-        if readings and fit.profiles == (known.default,):
-            assumed = tuple(
-                name for name, value in (("type", known.types), ("format", known.data_format)) if value is None
-            )
-        return Meaning(found.message, found.command, readings, fit, assumed, misfit)
+        fit = self._fit(places)
+        if found.group.profile.checksum is not fit.profiles[0].checksum and isinstance(
+            found.command, dcon.SetConfiguration
+        ):
+            fit = Fit((found.group.profile,))
+        facts = tuple(self._facts(fit)) if readings else ()
+        return Meaning(found.message, found.command, fit, readings, facts=facts, misfit=misfit)
+
+    def _facts(self, fit: Fit) -> Iterator[Fact]:
+        """Yield what readings rest on: what is known, and what they have by default."""
+        known = self._known
+        by_default = fit.profiles == (known.default,)
+        profile = fit.profiles[0]
+        for name, value in (("types", profile.type_codes), ("data_format", profile.data_format)):
+            if getattr(known, name) is not None:
+                yield Fact(name, getattr(known, name), Origin.GIVEN)
+            elif by_default:
+                yield Fact(name, value, Origin.ASSUMED)
 
     def _fit_of(self, groups: _Groups) -> Fit:
         return Fit(tuple(self._profiles[place] for place in sorted(place for places in groups for place in places)))
@@ -160,8 +178,39 @@ class Reader:
                 else:
                     groups_of_it = _groups(places, _RESPONSE_FORM)
                     attempts += [(group.places[0], partial(_answer, command, group)) for group in groups_of_it]
+                    attempts += _with_new_checksum(command, groups_of_it)
             stages.append(_in_turn(attempts))
         return tuple(stages) if any(stages) else self._alone
+
+
+def _nearest(faults: list[DecodeError]) -> DecodeError:
+    """Return the fault that is farthest in the frame; a wrong checksum only if there is no other fault."""
+    return deepest([fault for fault in faults if fault.fault is not Fault.CHECKSUM] or faults)
+
+
+reader = lru_cache(maxsize=64)(DconReader)
+"""The reader of modules of which this much is known."""
+
+
+def meanings(frame: bytes, asked: bytes | None = None, known: Known = _NOTHING_KNOWN) -> tuple[Meaning, ...]:
+    r"""Return everything that a DCON frame can mean, by section; as the response to `asked`, if that is given.
+
+    Shape: frames with and without checksum, and all data formats, are considered, unless they are known.
+    Errors: `DecodeError` if it means nothing.
+    Manual: 2; E7, E8, E93.
+
+    >>> [meaning.message for meaning in meanings(b"#0184\r")]
+    [ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132)]
+    """
+    frame = as_bytes("frame", frame)
+    if not frame:
+        raise DecodeError(Fault.LENGTH, frame, allowed="a frame")
+    return reader(known).meanings(frame, None if asked is None else as_bytes("asked", asked))
+
+
+def is_command(frame: bytes) -> bool:
+    """Return whether a frame is one that a host sends."""
+    return frame[0] in _COMMAND_LEADS
 
 
 _PLACE = itemgetter(0)
@@ -192,6 +241,15 @@ def _command(group: _Group, frame: bytes) -> Iterator[_Found]:
 
 def _answer(command: dcon.Command[Any], group: _Group, frame: bytes) -> Iterator[_Found]:
     yield _Found(dcon.decode_response(frame, command, group.profile), command, group)
+
+
+def _with_new_checksum(command: dcon.Command[Any], groups: Iterable[_Group]) -> Iterator[tuple[int, _Attempt]]:
+    """Choose how to read the response of a module whose checksum setting has just changed (2.1)."""
+    if isinstance(command, dcon.SetConfiguration):
+        checksum = command.report_settings.checksum
+        for profile, places in groups:
+            if profile.checksum is not checksum:
+                yield places[0], partial(_answer, command, _Group(evolve(profile, checksum=checksum), places))
 
 
 _Kinds = tuple[tuple[type[dcon.Response], _Group], ...]
@@ -236,12 +294,12 @@ def _response(kinds: _Kinds, frame: bytes) -> Iterator[_Found]:
 
 
 def _readings(
-    message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile
+    message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile, known: Known
 ) -> tuple[tuple[ChannelReading, ...], DecodeError | None]:
     """Read the fields of a report, of which the types may be unknown, and say why the first misfit is one."""
-    types = profile.type_codes
+    types: tuple[TypeCode | None, ...] = profile.type_codes or (known.types if known.partial else None) or ()
     if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
-        if len(types) == len(message.values):  # all at once, which takes a fifth of the time
+        if len(types) == len(message.values) and None not in types:  # all at once, which takes a fifth of the time
             with suppress(DecodeError):  # where one of them is a misfit
                 values, units, statuses = zip(*dcon.readings(message, profile), strict=True)
                 return tuple(
@@ -253,23 +311,23 @@ def _readings(
     else:
         return (), None
     data_format = DataFormat.HEX if isinstance(message, dcon.AnalogInputsHex) else profile.data_format
-    by_channel: dict[int | None, TypeCode] = dict(enumerate(types))
+    by_channel: dict[int | None, TypeCode | None] = dict(enumerate(types))
     if len(set(types)) == 1:
         by_channel[None] = types[0]
     found = []
     misfit = None
     for channel, text in fields:
         type_code = by_channel.get(channel)
-        known = type_code is not None
+        sure = type_code is not None
         try:
             reading = decode_field(
-                text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels, lenient=not known
+                text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels, lenient=not sure
             )
         except DecodeError as error:
             misfit = misfit or error
             found.append(ChannelReading(channel, text, None, type_code))
             continue
-        if known:
+        if sure:
             found.append(ChannelReading(channel, text, reading.status, type_code, reading.value, reading.unit))
         else:
             status = None if reading.status is Status.OK else reading.status

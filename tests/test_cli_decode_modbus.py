@@ -1,20 +1,17 @@
 """The Modbus half of the command line: frames in hex, exchanges, registers by name."""
 
-import io
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import ModbusDataFormat, Model, TypeCode, modbus
-from i7000.cli.dcon import Known
-from i7000.cli.hex_lines import hex_pieces
+from i7000 import ModbusDataFormat, Model, Protocol, TypeCode, modbus
 from i7000.cli.message import MODBUS, encode, find, make
-from i7000.cli.rtu_records import line_records
+from i7000.dissect import Known
 from i7000.modbus import seal
 from tests.spec.lint import Record, rows
-from tests.terminal import Run
+from tests.terminal import Run, logged
 from tests.vectors import modbus_message_of, modbus_vectors, profile_of, written_modbus_vectors
 
 ASK = "01 04 00 00 00 08 F1 CC"
@@ -24,117 +21,13 @@ M_7019R = {"model": Model.M_7019R, "types": (TypeCode.K,)}
 
 def told(*bodies: str, **known: Any) -> list[Record]:
     """The records of a log that has frames in its lines: address and PDU in hex, to which the CRC is put."""
-    return list(line_records(hex_pieces(seal(bytes.fromhex(body)).hex().encode() for body in bodies), Known(**known)))
+    return logged(
+        *(seal(bytes.fromhex(body)).hex() for body in bodies), known=Known(**known), protocol=Protocol.MODBUS_RTU
+    )
 
 
 def texts(record: Record) -> list[tuple[str, str | None, str | None]]:
     return [(cell["number"], cell["name"], cell["text"]) for cell in record["registers"]]
-
-
-# --- lines of a log ---------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        ASK,
-        ASK.lower(),
-        ASK.replace(" ", ""),
-        ASK.replace(" ", "  "),
-        ASK.replace(" ", "\t"),
-        ASK.replace(" ", ":"),
-        ASK.replace(" ", "-"),
-        ASK.replace(" ", ","),
-        "0104 0000 0008 F1CC",
-        "0x01, 0x04, 0x00, 0x00, 0x00, 0x08, 0xF1, 0xCC",
-        "{0X01,0X04,0X00,0X00,0X00,0X08,0XF1,0XCC};",
-        "['01', '04', '00', '00', '00', '08', 'F1', 'CC']",
-        "01h 04h 00h 00h 00h 08h F1h CCh",
-        r"\x01\x04\x00\x00\x00\x08\xf1\xcc",
-        r"b'\x01\x04\x00\x00\x00\x08\xf1\xcc'",
-        r'sent b"\x01\x04\x00\x00\x00\x08\xf1\xcc" to /dev/ttyUSB0',
-        f"  {ASK}  \r\n",
-        f"\ufeff{ASK}",
-        f"-> {ASK}",
-        f"->{ASK}",
-        f"<- {ASK}",
-        f">> {ASK}",
-        f"RX:{ASK}",
-        f"TX: {ASK}",
-        f"2024-03-07 08:15:00.101 -> {ASK}",
-        f"2024-03-07T08:15:00.101+01:00 TX {ASK}",
-        f"2024/03/07 08:15:00Z {ASK}",
-        f"08:15:00,101 | COM3 | {ASK}",
-        f"08:15:00 {ASK}",
-        f"08:15:00: {ASK}",
-        f"[12.5 ms] (host) {ASK}",
-        f"Mar  7 08:15:00 pi ser2net[71]: TX: {ASK}",
-        f"08:15 \N{RIGHTWARDS ARROW} {ASK}",
-        f"{ASK}  ; asked",
-        f"{ASK} |........|",
-        f"{ASK} (8 bytes)",
-    ],
-)
-def test_the_frame_of_a_line_is_found(line: str) -> None:
-    (piece,) = hex_pieces([line.encode()])
-
-    assert piece.frame == FRAME
-
-
-@pytest.mark.parametrize(
-    ("line", "frame"),
-    [
-        (rb"TX: b'\x01F%\xd3\xbb'", "014625d3bb"),
-        (rb'sent "\x01F%\xd3\xbb"', "014625d3bb"),
-        (rb"b'\x01\n\r\t\\\'\x00'", "010a0d095c2700"),
-        (b"01", "01"),
-        (b"RX 01 04", "0104"),
-        (b"RX 01 04 00 00 00 08 F1 CD", "010400000008f1cd"),
-    ],
-)
-def test_the_bytes_of_a_line_are_found(line: bytes, frame: str) -> None:
-    (piece,) = hex_pieces([line])
-
-    assert piece.frame is not None
-    assert frame == piece.frame.hex()
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        b"port opened", b"2024-03-07 08:15:00.101 /dev/ttyUSB0 opened, 9600 N81", b"01 zz", b"zz", b"0x1", b"->",
-        b"b'\xce\xa9' u", b"b''", b"\xff\xfe", b"\x00\x01",
-    ],
-)  # fmt: skip
-def test_a_line_without_bytes_is_kept_as_it_is(line: bytes) -> None:
-    (piece,) = hex_pieces([line])
-
-    assert piece.frame is None
-    assert line.decode("utf-8", "backslashreplace") == piece.text
-
-
-@pytest.mark.parametrize("line", [b"", b"\n", b"  \r\n"])
-def test_a_blank_line_is_no_piece(line: bytes) -> None:
-    assert list(hex_pieces([line])) == []
-
-
-def test_frames_that_follow_one_another_are_told_one_by_one() -> None:
-    found = [(piece.number, piece.text, piece.frame) for piece in hex_pieces([f"TX {ASK} {ASK} end".encode()])]
-
-    assert found == [(1, f"TX {ASK}", FRAME), (1, f"{ASK} end", FRAME)]
-
-
-def test_noise_around_frames_is_kept() -> None:
-    found = [(piece.text, piece.frame) for piece in hex_pieces([f"00 FF {ASK} FF FE {ASK} 01".encode()])]
-
-    assert found == [("00 FF", b"\x00\xff"), (ASK, FRAME), ("FF FE", b"\xff\xfe"), (ASK, FRAME), ("01", b"\x01")]
-
-
-@given(st.lists(st.binary() | st.sampled_from([FRAME.hex().encode(), b"01 ", b"\\x", b"b'", b"'", b":"])).map(b"".join))
-def test_no_byte_of_a_line_is_lost(line: bytes) -> None:
-    kept = "".join(piece.text for piece in hex_pieces([line]))
-
-    assert "".join(line.decode("utf-8", "backslashreplace").split()) == "".join(kept.split())
 
 
 # --- decode: the vectors ----------------------------------------------------------------------------------------------
@@ -151,9 +44,9 @@ def known_of(vector: Record) -> Known:
     )
 
 
-def log_of(vector: Record) -> list[bytes]:
+def log_of(vector: Record) -> list[str]:
     wires = [vector["request_wire"], vector["response_wire"]]
-    return [wire.encode() for wire in wires if wire]
+    return [wire for wire in wires if wire]
 
 
 @pytest.mark.parametrize("model_is_known", [True, False])
@@ -161,14 +54,14 @@ def log_of(vector: Record) -> list[bytes]:
 def test_an_exchange_is_told_as_the_vector_says(vector: Record, *, model_is_known: bool) -> None:
     known = known_of(vector) if model_is_known else Known()
 
-    records = list(line_records(hex_pieces(log_of(vector)), known))
+    records = logged(*log_of(vector), known=known, protocol=Protocol.MODBUS_RTU)
 
     messages = [vector["request"], vector["response"]][: len(records)]
     assert [(message["type"], message["fields"]) for message in messages] == [
         (record["name"], record["fields"]) for record in records
     ]
     assert [record["direction"] for record in records] == ["request", "response"][: len(records)]
-    assert [record["wire"] for record in records] == [wire.decode() for wire in log_of(vector)]
+    assert [record["wire"] for record in records] == log_of(vector)
     assert [record["error"] for record in records] == [None] * len(records)
 
 
@@ -177,7 +70,7 @@ DAMAGED = [case for case in modbus_vectors("reject") if log_of(case.values[0])]
 
 @pytest.mark.parametrize("vector", DAMAGED)
 def test_a_damaged_frame_has_the_fault_of_the_vector_or_is_something_else(vector: Record) -> None:
-    *_, record = line_records(hex_pieces(log_of(vector)), known_of(vector))
+    *_, record = logged(*log_of(vector), known=known_of(vector), protocol=Protocol.MODBUS_RTU)
 
     # What is no response can be a request or its echo, and what is no request a response.
     otherwise = ("response",) if vector["response_wire"] is None else ("request", "echo")
@@ -186,7 +79,7 @@ def test_a_damaged_frame_has_the_fault_of_the_vector_or_is_something_else(vector
 
 @pytest.mark.parametrize("vector", DAMAGED)
 def test_a_damaged_frame_of_an_unknown_module_is_told_too(vector: Record) -> None:
-    *_, record = line_records(hex_pieces(log_of(vector)), Known())
+    *_, record = logged(*log_of(vector), protocol=Protocol.MODBUS_RTU)
 
     assert record["error"] or record["name"]
 
@@ -255,7 +148,7 @@ def test_a_request_that_could_be_a_response_is_said_to_be_so() -> None:
     first, second = told("010601E80064", "010601E80064")
 
     assert (first["direction"], first["note"]) == (
-        "request", "or a response, SingleRegisterWritten: nothing before it tells",
+        "request", "or a response, SingleRegisterWritten, of which the request is not there",
     )  # fmt: skip
     assert (second["direction"], second["answers"], second["note"]) == ("response", 1, None)
 
@@ -315,15 +208,15 @@ def test_the_answer_of_another_module_is_an_error_and_told_alone() -> None:
 
 
 def test_a_damaged_frame_could_have_been_a_request() -> None:
-    ask, answer = (seal(bytes.fromhex(body)).hex().encode() for body in ("010301E80001", "0103020064"))
-    *_, record = line_records(hex_pieces([ask, b"01 03 01 E9 00 01 00 00", answer]), Known())
+    ask, answer = (seal(bytes.fromhex(body)).hex() for body in ("010301E80001", "0103020064"))
+    *_, record = logged(ask, "01 03 01 E9 00 01 00 00", answer, protocol=Protocol.MODBUS_RTU)
 
     assert (record["direction"], record["answers"]) == ("response", None)
 
 
 def test_noise_that_is_no_frame_does_not_part_an_exchange() -> None:
-    ask, answer = (seal(bytes.fromhex(body)).hex().encode() for body in ("010301E80001", "0103020064"))
-    *_, noise, record = line_records(hex_pieces([ask, b"00 " + answer]), Known())
+    ask, answer = (seal(bytes.fromhex(body)).hex(" ") for body in ("010301E80001", "0103020064"))
+    *_, noise, record = logged(ask, f"00 {answer}", protocol=Protocol.MODBUS_RTU)
 
     assert (noise["wire"], noise["fault"], record["answers"]) == ("00", "length", 1)
 
@@ -414,8 +307,7 @@ def test_analog_words_are_readings(data_format: ModbusDataFormat, value: float) 
 def test_what_is_assumed_of_readings_is_said() -> None:
     _, record = told("010400000001", "01040200FA", model=Model.M_7017)
 
-    assert record["assumed"] == ["type"]
-    assert record["note"] == "the Modbus data format is not known, read as hex: --modbus-format tells"
+    assert record["assumed"] == ["type", "modbus_format"]
 
 
 def test_a_word_of_a_channel_that_is_not_there_is_no_reading() -> None:
@@ -501,7 +393,7 @@ def test_numbers_are_those_of_the_vectors() -> None:
         "       40489           host_watchdog_timeout  10 s\n",
         "       10130           range_status 1  yes\n",
         "       note            the same as line 5: a 2-wire adapter's echo, or asked again\n",
-        "8    nothing\n     not understood: no frame in this line\n",
+        "8    nothing\n       note            no frame in this line\n",
     ],
 )
 def test_a_log_is_told_in_words(run: Run, words: str) -> None:
@@ -512,8 +404,7 @@ def test_a_log_is_told_in_words(run: Run, words: str) -> None:
     result = run("decode", *options.split(), stdin="\n".join(lines).encode())
 
     assert words in result.out
-    assert result.err == "i7000: 1 not understood: line 8\n"
-    assert result.code == 1
+    assert (result.code, result.err) == (0, "")
 
 
 def test_without_a_model_raw_registers_and_the_models_are_told(run: Run) -> None:
@@ -540,9 +431,9 @@ def test_the_length_of_a_mask_leaves_the_models_that_have_it() -> None:
 
 @given(st.binary())
 def test_no_log_makes_it_raise(log: bytes) -> None:
-    records = list(line_records(hex_pieces(io.BytesIO(log)), Known()))
+    records = logged(*log.decode("utf-8", "surrogateescape").split("\n"), protocol=Protocol.MODBUS_RTU)
 
-    assert all(record["error"] or record["name"] for record in records)
+    assert all(record["error"] or record["name"] or record["notes"] for record in records)
 
 
 BODIES = st.binary(min_size=2, max_size=12) | st.sampled_from([1, 2, 3, 4, 5, 6, 15, 16, 0x46, 0x83]).flatmap(
@@ -554,7 +445,7 @@ BODIES = st.binary(min_size=2, max_size=12) | st.sampled_from([1, 2, 3, 4, 5, 6,
 def test_no_frame_makes_it_raise(bodies: list[bytes], model: Model | None) -> None:
     records = told(*(body.hex() for body in bodies), model=model)
 
-    assert all(record["error"] or record["name"] for record in records)
+    assert all(record["error"] or record["name"] or record["notes"] for record in records)
 
 
 # --- encode -----------------------------------------------------------------------------------------------------------
@@ -646,7 +537,7 @@ def test_what_is_not_written_is_said(run: Run, arguments: str, code: int, messag
     ("arguments", "message"),
     [
         ("encode ReadCoils address=1 start=0 count=1", "ReadCoils is of the other protocol: --protocol rtu"),
-        ("decode $012 --modbus-format hex", "--modbus-format is of --protocol rtu; DCON has --format"),
+        ("decode $012 --modbus-format hex --protocol dcon", "--modbus-format is of --protocol rtu; DCON has --format"),
         ("decode 01 --protocol rtu --format hex", "--format and --checksum are of DCON"),
         ("decode 01 --protocol rtu --model I-7018", "I-7018 has no Modbus"),
         ("decode 01 --protocol ascii", "ascii"),

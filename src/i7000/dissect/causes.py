@@ -1,0 +1,147 @@
+"""The likely causes of frames that cannot be decoded: a sentence for each of the classic mistakes.
+
+Laws: a cause is a guess that was tried: what it says the frame would be without the mistake, a codec has decoded.
+"""
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+from attrs import evolve
+
+from i7000 import dcon, modbus
+from i7000.dissect.dcon import DconReader
+from i7000.dissect.known import Known
+from i7000.dissect.meaning import Meaning
+from i7000.dissect.modbus import ModbusReader
+from i7000.dissect.shapes import is_shaped
+from i7000.errors import DecodeError
+from i7000.message import Message
+
+__all__ = ["dcon_causes", "modbus_causes", "register_notes"]
+
+_BLANK_FIELD = " " * 7
+_MOST_STRIPPED = 20
+"""Channels whose blanks a log can have stripped."""
+
+
+def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | None) -> Iterator[str]:
+    """Yield what is likely to be the cause that a DCON frame cannot be read."""
+    body = wire.rstrip(b"\r\n")
+    if wire.endswith(b"\n"):
+        yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
+    elif not wire.endswith(b"\r"):
+        yield "no carriage return (0D) at its end"
+    with suppress(DecodeError):
+        modbus.unseal(wire)
+        yield "the CRC is right: a Modbus RTU frame"
+        return
+    if _is_noise(wire):
+        yield "noise: another baud rate or parity?"
+        return
+    yield from _checksum_causes(body, known, asked)
+    upper = body.upper()
+    if upper != body and _name(reader, upper, asked):
+        yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
+    if asked is not None and body[:1] == b">":
+        for count in range(1, _MOST_STRIPPED):
+            if _name(reader, body + _BLANK_FIELD.encode() * count, asked):
+                channels = "the last channel is" if count == 1 else f"the last {count} channels are"
+                yield f"{count * len(_BLANK_FIELD)} blanks short: {channels} disabled, and the log has lost the blanks?"
+                break
+
+
+def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator[str]:
+    plain = DconReader(evolve(known, checksum=False))
+    shorter, last = body[:-2], body[-2:].decode("ascii", "replace")
+    if known.checksum and _name(plain, body, asked):
+        yield f"without a checksum it is {_name(plain, body, asked)}; the checksum would be {dcon.checksum(body):02X}"
+    elif _name(plain, shorter, asked) and last.strip("0123456789abcdefABCDEF") == "":
+        name, right = _name(plain, shorter, asked), f"{dcon.checksum(shorter):02X}"
+        if last.upper() == right:
+            yield f"{last} is the checksum of {name}; no checksum was expected"
+        else:
+            yield f"{last} in place of a checksum? that of {name} would be {right}"
+
+
+def _name(reader: DconReader, body: bytes, asked: bytes | None) -> str | None:
+    """Return the name of the message that a body is, if it is one."""
+    if not body:
+        return None
+    try:
+        (meaning, *_) = reader.meanings(body + b"\r", asked)
+    except DecodeError:
+        return None
+    return None if meaning.misfit else type(meaning.message).__name__
+
+
+_TEXT = frozenset(b"\t\r\n") | frozenset(range(0x20, 0x7F))
+
+
+def _is_noise(wire: bytes) -> bool:
+    """Return whether most of the bytes are none that DCON has."""
+    return sum(byte not in _TEXT for byte in wire) * 2 > len(wire)
+
+
+# --- Modbus -----------------------------------------------------------------------------------------------------------
+
+
+def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
+    """Yield what is likely to be the cause that a Modbus RTU frame cannot be read."""
+    with suppress(UnicodeDecodeError):
+        if is_shaped(wire.rstrip(b"\r\n").decode("ascii")):
+            yield "the shape of a DCON frame"
+            return
+    with suppress(DecodeError):
+        modbus.unseal(wire)
+        return  # The CRC is right: the error says what is wrong.
+    header = _tcp_header(wire)
+    if header is not None:
+        name = _meant(reader, wire[6:])
+        what = f"; the rest is {name}" if name else ""
+        yield f"a Modbus TCP header (transaction {header}, {len(wire) - 6} bytes follow): these modules speak RTU{what}"
+        return
+    whole, cut = _meant(reader, wire), _meant(reader, wire[:-2])
+    if whole:
+        yield f"no CRC? {whole} without it, which would be {_crc(wire)}"
+    elif cut and modbus.seal(wire[:-2])[-2:] == wire[:-3:-1]:
+        yield f"the bytes of the CRC are in the wrong order: the low byte comes first, {_crc(wire[:-2])}"
+    elif cut:
+        yield f"damaged? {cut} would have the CRC {_crc(wire[:-2])}"
+    elif len(wire) >= modbus.SHORTEST_FRAME and modbus.seal(wire[:-1])[-2] == wire[-1] and _meant(reader, wire[:-1]):
+        yield f"cut: {_meant(reader, wire[:-1])} without its last byte, {modbus.seal(wire[:-1])[-1]:02X}"
+
+
+def _tcp_header(wire: bytes) -> int | None:
+    """Return the transaction of a Modbus TCP header, if a frame begins with one."""
+    if len(wire) >= len("ttppllaf") and wire[2:4] == b"\0\0" and int.from_bytes(wire[4:6], "big") == len(wire) - 6:
+        return int.from_bytes(wire[:2], "big")
+    return None
+
+
+def _meant(reader: ModbusReader, body: bytes) -> str | None:
+    """Return the name of the request or response that a body is, if it is one."""
+    if len(body) < len("af") or len(body) > modbus.LONGEST_FRAME - 2:
+        return None
+    frame = modbus.seal(body)
+    meaning = reader.request(frame).meaning or reader.alone(frame).meaning
+    return None if meaning is None else type(meaning.message).__name__
+
+
+def _crc(body: bytes) -> str:
+    return modbus.seal(body)[-2:].hex(" ").upper()
+
+
+_NUMBERED = {"01": 0, "02": 10000, "03": 40000, "04": 30000, "05": 0, "06": 40000, "0F": 0, "10": 40000}
+"""Where the numbers of the manual begin, by function."""
+_NUMBERS_A_KIND = 9999
+
+
+def register_notes(meaning: Meaning) -> Iterator[str]:
+    """Yield that an address is likely to be a number of the manual."""
+    message: Message = meaning.command or meaning.message
+    if not isinstance(message, modbus.Request):
+        return
+    first = _NUMBERED.get(message.pdu[:2])
+    start = next((getattr(message, name) for name in ("start", "register", "coil") if hasattr(message, name)), None)
+    if first and start is not None and first < start <= first + _NUMBERS_A_KIND:
+        yield f"{start:05} is a number of the manual: in a frame it is address {start - first - 1} (3.2)"

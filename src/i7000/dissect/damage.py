@@ -1,0 +1,48 @@
+"""A line in which there is no frame, but nothing else either: what stands there is a damaged one."""
+
+import re
+
+from i7000.dissect.spelling import hex_runs, wire_of, without_numbers
+from i7000.settings import Protocol
+
+__all__ = ["in_place_of_a_frame"]
+
+_DIRECTION = re.compile(
+    r"[\Wz_]*(?:(?:tx|rx|sent|send|recv|received?|writ(?:e|ten)|read|re(?:quest|sponse|ply)|query|answer|command|out|in"
+    r"|host|master|slave)[\Wz_]*){0,2}",
+    re.IGNORECASE,
+)
+"""What can stand beside a frame: a time, which is crossed out, and words for its direction."""
+_LEADING = "%#$~@!>?"
+_FEWEST = 2
+_FEWEST_IN_A_WORD = 5
+"""Bytes that are no plain number, where the protocol is unknown."""
+
+
+def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
+    r"""Return the bytes of a line that has nothing but a time and a direction beside them; None if there are none.
+
+    Shape: with a protocol, whatever can be meant to be a frame of it; else what is hardly anything else.
+
+    >>> in_place_of_a_frame("12:00:01 RX 01 04 02", None), in_place_of_a_frame("port opened", None)
+    (b'\x01\x04\x02', None)
+    >>> in_place_of_a_frame("-> !0", Protocol.DCON)
+    b'!0\r'
+    """
+    crossed = without_numbers(text)
+    if protocol is not Protocol.DCON:
+        for run in hex_runs(crossed):
+            beside = crossed[: run[0].start] + crossed[run[-1].end :]
+            words = sum(byte.word for byte in run) == len(run)
+            many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
+            wire = wire_of(run)
+            heading = wire == bytes(range(len(wire)))
+            if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
+                return wire
+    if protocol is Protocol.DCON:
+        first = min((at for at in map(crossed.find, _LEADING) if at >= 0), default=-1)
+        if first >= 0 and _DIRECTION.fullmatch(crossed[:first].rstrip("<-=>")):
+            body = text[first:].rstrip("\r\n")
+            ended = body[0] == ">" or text.endswith("\r")  # A blank before the carriage return was on the wire.
+            return (body if ended else body.rstrip()).encode("utf-8", "surrogateescape") + b"\r"
+    return None

@@ -1,0 +1,71 @@
+"""DCON frames that a line writes as text, with any spelling of the carriage return, or with none."""
+
+from collections.abc import Iterator
+
+from i7000.dcon import LONGEST_FRAME
+from i7000.dissect.found import Found, Kind
+from i7000.dissect.patterns import pattern
+from i7000.dissect.shapes import is_shaped, report
+from i7000.dissect.spelling import text_of
+
+__all__ = ["in_text"]
+
+_LEADING = pattern(r"[%#$~@!>?]")
+_MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
+_UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
+_WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
+_CLOSING = "\"'`)]}>,;.|"
+_CUT = pattern(r"[\"'`<,;|&)\]}]|[-=]+>")
+"""What ends a frame in the middle of a word, where the word as a whole has no shape."""
+_ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
+_NUMBERED = pattern(r">[+-]\d")
+
+
+def in_text(text: str) -> Iterator[Found]:
+    """Find frames from a leading character to a carriage return, a blank, a quotation mark or a bracket."""
+    if not _MAY_LEAD.search(text):
+        return
+    characters, places = text_of(text)
+    at = 0
+    while leading := _LEADING.search(characters, at):
+        start = leading.start()
+        at = start + 1
+        kind, end = _ending(characters, start)
+        if kind is not None:
+            closing = characters[end : end + 1]
+            spelled = places[min(end + 1, len(characters))] - places[end] > 1
+            feed = closing == "\n" and spelled
+            closed = closing in ("\r", "\n")
+            wire = characters[start:end].encode("ascii") + (b"\n" if feed else b"\r")
+            yield Found(Kind.DAMAGED if feed else kind, wire, places[start], places[end + closed])
+            at = end
+
+
+def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
+    """Where the frame that starts here ends, and what it is; None if there is none."""
+    if characters[start] == ">":
+        found = report().match(characters, start)
+        if found:
+            return Kind.DCON, found.end()
+    if not (_NUMBERED if characters[start] == ">" else _ADDRESSED).match(characters, start):
+        return None, start
+    written = _UP_TO_END.match(characters, start)
+    if written is None and start and characters[start - 1].isalnum():
+        return None, start
+    ends = list(_ends(characters, start, None if written is None else written.end()))
+    shaped = (end for end in ends if is_shaped(characters[start:end]))
+    end = next(shaped, None)
+    return (Kind.DAMAGED, ends[0]) if end is None else (Kind.DCON, end)
+
+
+def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:
+    """Where a frame can end: at its carriage return, or before what closes a word; and where a word can be cut."""
+    word = _WORD.match(characters, start)
+    longest = word.end() if word else start + 1
+    if written is None:
+        yield from range(start + len(characters[start:longest].rstrip(_CLOSING)), longest + 1)
+    else:
+        yield written
+    cut = _CUT.search(characters, start, longest)
+    if cut:
+        yield cut.start()
