@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
-from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16, crc_of
+from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc_of
 from i7000.modbus.layout import Layout
 from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, LAST_ADDRESS, MODULE_SETTINGS, Request
 from i7000.profile import Profile
@@ -146,7 +146,7 @@ def split(
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
-        if lengths and size == lengths[0] and not crc16(buffer):  # It is one frame, as most of a log are.
+        if lengths and size == lengths[0] and not crc_of(buffer):  # It is one frame, as most of a log are.
             return (buffer,), b""
     if request is not None:
         check_type("request", request, Request)
