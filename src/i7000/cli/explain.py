@@ -219,7 +219,7 @@ def errata_named(name: str) -> Iterator[Record]:
 
     Errors: `UsageError` if there is none.
     """
-    wanted = re.sub(r"^E(\d)$", r"E0\1", name.upper())
+    wanted = re.sub(r"(?<=^E)(?=\d$)", "0", name.upper())
     found = [
         row
         for row in facts.errata().values()

@@ -36,7 +36,7 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             words = sum(byte.word for byte in run) == len(run)
             many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
             wire = wire_of(run)
-            heading = wire == bytes(range(len(wire)))
+            heading = all(at == byte for at, byte in enumerate(wire))
             if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
                 return wire
     if protocol is Protocol.DCON:
