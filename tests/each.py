@@ -33,7 +33,7 @@ def each(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Check]
                     check(**dict(zip(given, case.values, strict=True)), **fixtures)
                 except (Exception, pytest.fail.Exception) as failure:  # noqa: BLE001 - whatever it is, it is shown
                     failure.add_note(f"of the case {case.id}")
-                    failures[case.id] = failure
+                    failures[str(case.id)] = failure
             if failures:
                 raise BaseExceptionGroup(
                     f"{len(failures)} of {len(found)} cases: {', '.join(failures)}", [*failures.values()]
