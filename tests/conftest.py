@@ -16,9 +16,12 @@ settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, p
 settings.register_profile("fuzz", settings.get_profile("dev"), max_examples=20_000, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "dev")
 
-# A shell that runs the tests in the background has SIGINT ignored, and whatever they start would inherit that.
+# A shell that runs the tests in the background ignores SIGINT, `nohup` ignores SIGHUP, and whatever the tests start
+# would inherit that. A function is not inherited; with it the tests themselves go on when they are hung up.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, lambda *_: None)
 
 
 @pytest.fixture(autouse=True)

@@ -30,6 +30,7 @@ from i7000.dcon.codec import COMMANDS
 from i7000.dcon.parts import Part
 from i7000.models import CONFIGURABLE
 from i7000.readings import decode_engineering_word, decode_field, encode_engineering_word, encode_field
+from tests.each import each
 from tests.spec.lint import Record, rows
 from tests.vectors import parameters, profile_of
 
@@ -266,7 +267,7 @@ def reading_cases() -> list[Any]:
     return [case for name in ("engineering", "percent", "hex") for case in parameters(f"vectors/readings/{name}.json")]
 
 
-@pytest.mark.parametrize("vector", reading_cases())
+@each("vector", reading_cases())
 def test_a_reading_is_what_the_vector_says(vector: Record) -> None:
     code, data_format = TypeCode(int(vector["type_code"], 16)), DataFormat[vector["format"].upper()]
     reading = Reading(vector["value"], code.unit, Status(vector["status"]))
@@ -284,7 +285,7 @@ def test_a_reading_is_what_the_vector_says(vector: Record) -> None:
         assert vector["text"] == encode_field(reading, code, data_format)
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/readings/legacy.json"))
+@each("vector", parameters("vectors/readings/legacy.json"))
 def test_a_line_of_old_firmware_is_split_as_the_vector_says(vector: Record) -> None:
     profile = profile_of(vector["profile"])
     frame = dcon.seal(b">" + vector["line"].encode(), checksum=profile.checksum)

@@ -26,6 +26,7 @@ from i7000 import (
 from i7000.arguments import as_bytes
 from i7000.dissect import meanings
 from tests.calls import BASES, CALLS, LEFT_OUT, Call, surface
+from tests.each import each
 
 NUMBERS = (None, True, -1, 300, 10**400, 1.5, float("nan"), float("inf"))
 OTHERS: tuple[Any, ...] = (
@@ -39,7 +40,7 @@ CHECKED_BY_TYPE = (
     device.Eeprom, device.Ear, device.Uart,
 )  # fmt: skip
 
-each_call = pytest.mark.parametrize("call", CALLS, ids=lambda call: call.name)
+each_call = each("call", [pytest.param(call, id=call.name) for call in CALLS])
 
 
 def test_every_public_function_method_and_constructor_is_called_or_left_out_with_a_reason() -> None:

@@ -12,6 +12,7 @@ from i7000.cli import main
 from i7000.cli.message import DCON, encode, find, make
 from i7000.dissect.meaning import errata
 from i7000_cli import CLOSED
+from tests.each import each
 from tests.spec.lint import Record, rows
 from tests.terminal import Run, known_of
 from tests.vectors import dcon_vectors, message_of
@@ -35,7 +36,7 @@ def assignments(fields: Record) -> tuple[str, ...]:
     return tuple(f"{name}={written(name, value)}" for name, value in fields.items())
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+@each("vector", dcon_vectors("response", "refused", "silence"))
 def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
     message = make(find(vector["command"]["type"], DCON), assignments(vector["command"]["fields"]))
 
@@ -45,7 +46,7 @@ def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
         assert vector["command_wire"] == wire.hex()
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+@each("vector", dcon_vectors("response", "refused"))
 def test_a_response_is_made_of_its_fields(vector: Record) -> None:
     message = make(find(vector["response"]["type"], DCON), assignments(vector["response"]["fields"]))
 

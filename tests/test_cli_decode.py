@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from i7000 import Firmware, Model, Protocol, TypeCode, dcon
 from i7000.cli import main
 from i7000.dissect import Known
+from tests.each import each
 from tests.spec.lint import Record
 from tests.terminal import Run, known_of, logged
 from tests.vectors import dcon_vectors
@@ -39,7 +40,7 @@ def log_of(vector: Record) -> list[str]:
     return [bytes.fromhex(wire).decode("utf-8", "surrogateescape") for wire in wires if wire]
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+@each("vector", dcon_vectors("response", "refused", "silence"))
 def test_an_exchange_is_told_as_the_vector_says(vector: Record) -> None:
     records = logged(*log_of(vector), known=known_of(vector), protocol=Protocol.DCON)
 
@@ -52,7 +53,7 @@ def test_an_exchange_is_told_as_the_vector_says(vector: Record) -> None:
     ]
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+@each("vector", dcon_vectors("response", "refused"))
 def test_an_exchange_with_an_unknown_module_is_told_among_others(vector: Record) -> None:
     response = logged(*log_of(vector), protocol=Protocol.DCON)[1]
 
@@ -60,7 +61,7 @@ def test_an_exchange_with_an_unknown_module_is_told_among_others(vector: Record)
     assert (vector["command"]["type"], vector["response"]["type"], vector["response"]["fields"]) in meanings
 
 
-@pytest.mark.parametrize(
+@each(
     "vector",
     [
         case

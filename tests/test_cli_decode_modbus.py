@@ -10,6 +10,7 @@ from i7000 import ModbusDataFormat, Model, Protocol, TypeCode, modbus
 from i7000.cli.message import MODBUS, encode, find, make
 from i7000.dissect import Known
 from i7000.modbus import seal
+from tests.each import each
 from tests.spec.lint import Record, rows
 from tests.terminal import Run, logged
 from tests.vectors import modbus_message_of, modbus_vectors, profile_of, written_modbus_vectors
@@ -50,7 +51,7 @@ def log_of(vector: Record) -> list[str]:
 
 
 @pytest.mark.parametrize("model_is_known", [True, False])
-@pytest.mark.parametrize("vector", modbus_vectors("response", "exception", "silence"))
+@each("vector", modbus_vectors("response", "exception", "silence"))
 def test_an_exchange_is_told_as_the_vector_says(vector: Record, *, model_is_known: bool) -> None:
     known = known_of(vector) if model_is_known else Known()
 
@@ -68,7 +69,7 @@ def test_an_exchange_is_told_as_the_vector_says(vector: Record, *, model_is_know
 DAMAGED = [case for case in modbus_vectors("reject") if log_of(case.values[0])]
 
 
-@pytest.mark.parametrize("vector", DAMAGED)
+@each("vector", DAMAGED)
 def test_a_damaged_frame_has_the_fault_of_the_vector_or_is_something_else(vector: Record) -> None:
     *_, record = logged(*log_of(vector), known=known_of(vector), protocol=Protocol.MODBUS_RTU)
 
@@ -77,7 +78,7 @@ def test_a_damaged_frame_has_the_fault_of_the_vector_or_is_something_else(vector
     assert record["fault"] == vector["fault"] or (record["fault"] is None and record["direction"] in otherwise)
 
 
-@pytest.mark.parametrize("vector", DAMAGED)
+@each("vector", DAMAGED)
 def test_a_damaged_frame_of_an_unknown_module_is_told_too(vector: Record) -> None:
     *_, record = logged(*log_of(vector), protocol=Protocol.MODBUS_RTU)
 
@@ -464,7 +465,7 @@ def assignments(fields: Record) -> tuple[str, ...]:
     return tuple(f"{name}={written(name, value)}" for name, value in fields.items())
 
 
-@pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception", "silence"))
+@each("vector", written_modbus_vectors("response", "exception", "silence"))
 def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
     message = make(find(vector["request"]["type"], MODBUS), assignments(vector["request"]["fields"]))
 
@@ -473,7 +474,7 @@ def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
     assert vector["request_wire"] == encode(message, known_of(vector), force=force).hex()
 
 
-@pytest.mark.parametrize("vector", modbus_vectors("response", "exception"))
+@each("vector", modbus_vectors("response", "exception"))
 def test_a_response_is_made_of_its_fields(vector: Record) -> None:
     message = make(find(vector["response"]["type"], MODBUS), assignments(vector["response"]["fields"]))
 

@@ -7,6 +7,7 @@ import pytest
 from i7000 import Model, Profile, modbus
 from i7000.cli.message import make
 from i7000.modbus import Access, Area, Register, RegisterMap, seal
+from tests.each import each
 from tests.terminal import Run
 
 MAPS = [RegisterMap(Profile(model)) for model in Model if model.value.startswith("M")]
@@ -110,7 +111,7 @@ def test_a_field_that_is_missing_is_named_with_how_it_is_written(run: Run, name:
 # --- registers by name ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("registers", "row"), ROWS)
+@each(("registers", "row"), ROWS)
 def test_a_row_is_read_by_its_name(registers: RegisterMap, row: Register) -> None:
     request: Any = make(READERS[row.area], ("address=1", f"start={row.name}"), registers)
 

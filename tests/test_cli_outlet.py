@@ -7,7 +7,7 @@ import pty
 import sys
 import threading
 import tty
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from time import monotonic, sleep
 from typing import IO
@@ -16,6 +16,7 @@ import pytest
 from rich.console import Console
 
 from i7000.cli.outlet import MOST_WAITING, Outlet
+from tests.waiting import ENOUGH, until
 
 LINE = "x" * 99 + "\n"
 
@@ -28,7 +29,7 @@ class Stopped(io.StringIO):
         self.going_on = threading.Event()
 
     def write(self, text: str) -> int:
-        assert self.going_on.wait(20)
+        assert self.going_on.wait(ENOUGH)
         return super().write(text)
 
 
@@ -42,13 +43,6 @@ def pipe(*, blocking: bool = True) -> Iterator[tuple[int, IO[str]]]:
             yield reading, file
         finally:
             os.close(reading)
-
-
-def until(holds: Callable[[], object]) -> None:
-    deadline = monotonic() + 10
-    while not holds():
-        assert monotonic() < deadline
-        sleep(0.01)
 
 
 def test_text_is_written_in_its_order() -> None:

@@ -1,96 +1,26 @@
 """``i7000 simulate``, as a person and as a script call it."""
 
-import errno
 import io
 import os
 import re
 import signal
 import socket
-import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
-from queue import Queue
-from threading import Event, Thread
-from time import monotonic, sleep
-from typing import Any
+from threading import Event
+from time import sleep
 
 import pytest
-import serial
 
-from i7000 import Model
 from i7000.cli.outlet import Outlet
-from i7000.cli.simulation import read_faults, read_modules, read_place
+from i7000.cli.simulation import read_faults, read_place
 from i7000.cli.words import UsageError
-from i7000.device import factory
-from i7000.simulator.memory import held, load, save
 from i7000.simulator.recordings import MOST_BYTES, MOST_ROWS
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, Simulator
+from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.tcp import MOST_CONNECTIONS
-from tests.terminal import Run, Told
-
-KELVIN = "M-7019R@B3.7,type=K,protocol=dcon"
-INPUTS = ("--signal", "all=25.1degC")
-SAID = b">" + b"+0025.1" * 8 + b"\r"
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port: int = server.getsockname()[1]
-        return port
-
-
-def talk(url: str, *frames: bytes) -> list[bytes]:
-    """Say DCON frames as soon as somebody is there, and tell the answers."""
-    deadline = monotonic() + 10
-    while True:
-        try:
-            opened: Any = serial.serial_for_url(url, timeout=2)
-            break
-        except serial.SerialException:
-            assert monotonic() < deadline
-            sleep(0.02)
-    with opened:
-        answers = []
-        for frame in frames:
-            opened.write(frame)
-            answers.append(opened.read_until(b"\r"))
-        return answers
-
-
-def unanswered(port: int, frame: bytes) -> bytes:
-    """Say a DCON frame, and return what comes until the simulator hangs up: nothing, if all is well."""
-    with socket.create_connection(("127.0.0.1", port), timeout=10) as opened:
-        opened.sendall(frame)
-        return opened.recv(100)
-
-
-def simulated(run: Run, *arguments: str, meanwhile: Callable[[], object] = lambda: None) -> Told:
-    """Call the command, and end the simulation when it has begun and something has been done meanwhile."""
-    begun: Queue[Simulator] = Queue()
-
-    class Begun(Simulator):
-        async def run(self) -> None:
-            begun.put(self)
-            await super().run()
-
-    def do() -> None:
-        simulator = begun.get(timeout=10)
-        try:
-            meanwhile()
-        finally:
-            simulator.loop.call_soon_threadsafe(simulator.end)
-
-    doing = Thread(target=do)
-    doing.start()
-    try:
-        with pytest.MonkeyPatch.context() as patched:
-            patched.setattr("i7000.cli.simulation.Simulator", Begun)
-            return run("simulate", *arguments)
-    finally:
-        doing.join()
+from tests.simulation import INPUTS, KELVIN, SAID, free_port, simulated, talk
+from tests.terminal import Run
+from tests.waiting import ENOUGH
 
 
 def test_modules_are_there_until_the_end(run: Run) -> None:
@@ -177,7 +107,7 @@ def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: p
 
     class Unread(io.StringIO):
         def write(self, text: str) -> int:
-            assert going_on.wait(20)
+            assert going_on.wait(ENOUGH)
             return super().write(text)
 
     monkeypatch.setattr("sys.stdout", Unread())
@@ -196,7 +126,7 @@ def test_a_frame_of_the_other_protocol_is_explained(run: Run) -> None:
     port = free_port()
 
     def ask() -> None:
-        with socket.create_connection(("127.0.0.1", port), timeout=5) as host:
+        with socket.create_connection(("127.0.0.1", port), timeout=ENOUGH) as host:
             host.sendall(b"$01M\r")
             host.shutdown(socket.SHUT_WR)
             assert host.recv(100) == b""
@@ -233,122 +163,22 @@ def test_the_help_says_what_a_recording_is_and_how_long_it_may_be(run: Run) -> N
     assert f"At most {MOST_ROWS:,} rows and {MOST_BYTES // 10**6} MB." in told
 
 
-# --- what is remembered -----------------------------------------------------------------------------------------------
-
-
-def test_a_file_keeps_what_modules_remember(run: Run, tmp_path: Path) -> None:
-    memory, port = tmp_path / "modules.json", free_port()
-    url = f"socket://127.0.0.1:{port}"
+def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
+    port = free_port()
     answers = []
 
-    simulated(
-        run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port),
-        meanwhile=lambda: answers.extend(talk(url, b"~01OABC\r")),
-    )  # fmt: skip
-    simulated(run, "--eeprom", str(memory), "--tcp", str(port), meanwhile=lambda: answers.extend(talk(url, b"$01M\r")))
-
-    assert answers == [b"!01\r", b"!01ABC\r"]
-    assert [eeprom.name for eeprom in load(memory)] == ["ABC"]
-
-
-def test_a_file_is_made_before_anything_is_said(run: Run, tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
-
-    simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0")
-
-    assert [eeprom.model for eeprom in load(memory)] == [Model.M_7019R]
-
-
-def test_a_damaged_file_is_refused_and_left_as_it_is(run: Run, tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
-    memory.write_text("{", encoding="utf-8")
-
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
-
-    assert (told.code, told.out) == (2, "")
-    assert str(memory) in told.err
-    assert memory.read_text(encoding="utf-8") == "{"
-
-
-def test_a_file_of_other_modules_is_refused(tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
-    save(memory, [factory(Model.I_7018)])
-
-    with pytest.raises(UsageError, match=r"holds I-7018@B4.5, not M-7019R@B3.7"):
-        read_modules([KELVIN], [], seed=0, memory=memory)
-
-
-def test_the_init_switch_is_not_in_the_file(tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
-    save(memory, [factory(Model.I_7018)])
-
-    (without,) = read_modules([], [], seed=0, memory=memory)
-    (switched,) = read_modules(["I-7018,init=true"], [], seed=0, memory=memory)
-
-    assert (without.init_switch, switched.init_switch) == (False, True)
-
-
-def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path) -> None:
-    memory, port = tmp_path / "modules.json", free_port()
-
     def meanwhile() -> None:
-        talk(f"socket://127.0.0.1:{port}", b"$01M\r")
-        memory.unlink()
-        os.mkfifo(memory)
-        answers.append(unanswered(port, b"~01OABC\r"))
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
+        os.kill(os.getpid(), signal.SIGHUP)
+        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
 
-    answers: list[bytes] = []
-    doing = Thread(target=meanwhile)
-    doing.start()
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
-    doing.join()
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        told = simulated(run, "--model", KELVIN, *INPUTS, "--tcp", str(port), meanwhile=meanwhile)
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
-    assert answers == [b""]
-    assert told.code == 2
-    assert "is a device or pipe" in told.err
-
-
-def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
-    memory = tmp_path / "nowhere" / "modules.json"
-
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
-
-    assert (told.code, told.out) == (2, "")
-    assert told.err == f"i7000: [Errno 2] No such file or directory: '{memory}'\n"
-
-
-def test_a_file_that_another_simulator_uses_is_refused(run: Run, tmp_path: Path) -> None:
-    memory = tmp_path / "modules.json"
-
-    with held(memory):
-        told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
-
-    assert (told.code, told.out) == (2, "")
-    assert told.err.startswith(f"i7000: {memory}: the file itself: is used by another simulator")
-
-
-def test_what_a_full_disk_does_not_store_is_not_acknowledged(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    memory, port = tmp_path / "modules.json", free_port()
-    answers = []
-
-    def full(_: int) -> None:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    def meanwhile() -> None:
-        answers.extend(talk(f"socket://127.0.0.1:{port}", b"$01M\r"))
-        monkeypatch.setattr(os, "fsync", full)
-        answers.append(unanswered(port, b"~01OABC\r"))
-
-    doing = Thread(target=meanwhile)
-    doing.start()
-    told = run("simulate", "--model", KELVIN, "--eeprom", str(memory), "--tcp", str(port))
-    doing.join()
-
-    assert answers == [b"!017019R\r", b""]
-    assert (told.code, told.err) == (2, f"i7000: [Errno 28] No space left on device: '{memory}'\n")
-    assert [eeprom.name for eeprom in load(memory)] == ["7019R"]
+    assert (told.code, answers) == (0, [SAID, SAID])
 
 
 # --- wrong usage ------------------------------------------------------------------------------------------------------
@@ -458,82 +288,3 @@ def test_a_system_without_pseudo_terminals_is_told_what_else_there_is(
 
     assert (told.code, told.out) == (2, "")
     assert "give --tcp or --rfc2217" in told.err
-
-
-# --- as a process -----------------------------------------------------------------------------------------------------
-
-
-MAIN = "import sys; from i7000.cli import main; sys.exit(main())"
-WITHOUT_SIGNALS = (
-    "import asyncio; "
-    "asyncio.SelectorEventLoop.add_signal_handler = lambda *_: (_ for _ in ()).throw(NotImplementedError)"
-)
-
-
-@contextmanager
-def process(*arguments: str, main: str = MAIN) -> Iterator["subprocess.Popen[str]"]:
-    command = [sys.executable, "-c", main, "simulate"]
-    with subprocess.Popen(  # noqa: S603 - ourselves
-        [*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as started:
-        try:
-            yield started
-        finally:
-            started.kill()
-
-
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
-    with process("--model", KELVIN, *INPUTS) as started:
-        assert started.stdout
-        path = started.stdout.readline().strip()
-        answers = talk(path, b"#01\r")
-
-        started.send_signal(ending)
-        rest, errors = started.communicate(timeout=10)
-
-    assert answers == [SAID]
-    assert (started.returncode, rest, errors) == (0, "", "")
-    assert not Path(path).exists()
-
-
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
-def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals) -> None:
-    with process("--model", KELVIN) as started:
-        assert started.stdout
-        started.stdout.readline()
-
-        started.send_signal(ending)
-        rest, errors = started.communicate(timeout=10)
-
-    assert (started.returncode, rest, errors) == (0, "", "")
-
-
-def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
-    port = free_port()
-    answers = []
-
-    def meanwhile() -> None:
-        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
-        os.kill(os.getpid(), signal.SIGHUP)
-        answers.extend(talk(f"socket://127.0.0.1:{port}", b"#01\r"))
-
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    try:
-        told = simulated(run, "--model", KELVIN, *INPUTS, "--tcp", str(port), meanwhile=meanwhile)
-    finally:
-        signal.signal(signal.SIGHUP, before)
-
-    assert (told.code, answers) == (0, [SAID, SAID])
-
-
-def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too() -> None:
-    with process("--model", KELVIN, main=f"{WITHOUT_SIGNALS}; {MAIN}") as started:
-        assert started.stdout
-        path = started.stdout.readline().strip()
-        talk(path, b"#01\r")
-
-        started.send_signal(signal.SIGINT)
-        rest, errors = started.communicate(timeout=10)
-
-    assert (started.returncode, rest, errors) == (130, "", "")

@@ -7,35 +7,27 @@ import select
 import signal
 import socket
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
 import pytest
 
-from tests.simulator.running import until
+from tests.simulation import process as started_process
+from tests.waiting import ENOUGH, until
 
 MODEL = ("--model", "I-7018", "--signal", "all=1.5V")
 SAID = b">" + b"+1.5000" * 8 + b"\r"
 XTERM = os.environ | {"TERM": "xterm"}
-MAIN = "import sys; from i7000.cli import main; sys.exit(main())"
 AT_ONCE = 100
-ENOUGH = 20.0
 PROMPTLY = 3.0
 """Seconds, on a machine that has much else to do."""
 
 
-@contextmanager
-def process(*arguments: str, **others: Any) -> Iterator["subprocess.Popen[bytes]"]:
-    command = [sys.executable, "-c", MAIN, "simulate", *MODEL, *arguments]
-    with subprocess.Popen(command, bufsize=0, **others) as started:  # noqa: S603 - ourselves
-        try:
-            yield started
-        finally:
-            started.kill()
+def process(*arguments: str, **others: Any) -> AbstractContextManager["subprocess.Popen[bytes]"]:
+    return started_process(*MODEL, *arguments, bufsize=0, **others)
 
 
 def place(line: bytes) -> tuple[str, int]:
@@ -93,7 +85,7 @@ def test_lines_that_nobody_reads_hold_up_nothing() -> None:
     with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
         assert started.stdout
         assert started.stderr
-        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=ENOUGH) as host:
             asked(host, b"#01\r", SAID, 5_200)
             code, took = ended(started)
         errors = started.stderr.read()
@@ -109,7 +101,7 @@ def test_a_second_signal_does_not_cut_the_end_short(again: signal.Signals) -> No
     with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
         assert started.stdout
         assert started.stderr
-        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=ENOUGH) as host:
             asked(host, b"#01\r", SAID, 5_200)
             started.send_signal(signal.SIGINT)
             host.settimeout(5)
@@ -133,7 +125,7 @@ def test_a_disk_that_is_full_is_reported_while_the_bus_goes_on(tmp_path: Path) -
     ):
         assert started.stderr
         until(lambda: shown.read_bytes().endswith(b"\n"))
-        with socket.create_connection(place(shown.read_bytes()), timeout=5) as host:
+        with socket.create_connection(place(shown.read_bytes()), timeout=ENOUGH) as host:
             asked(host, b"#01\r", SAID, 100)
             errors = first_line(started.stderr.fileno(), b"i7000")
             asked(host, b"#01\r", SAID, 100)
@@ -149,7 +141,7 @@ def test_lines_that_were_dropped_are_counted_where_they_would_have_been() -> Non
         assert started.stdout
         assert started.stderr
         out = started.stdout.fileno()
-        with socket.create_connection(place(first_line(out)), timeout=5) as host:
+        with socket.create_connection(place(first_line(out)), timeout=ENOUGH) as host:
             asked(host, b"#01\r", SAID, 5_000)
             shown = read_all(out, lambda heard: b"not shown\n" in heard)
             asked(host, b"$01M\r", b"!017018\r", 1)
@@ -168,7 +160,7 @@ def test_a_reader_that_is_gone_holds_up_nothing() -> None:
     with process("--tcp", "0", "--view", "lines", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started:
         assert started.stdout
         assert started.stderr
-        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=5) as host:
+        with socket.create_connection(place(first_line(started.stdout.fileno())), timeout=ENOUGH) as host:
             started.stdout.close()
             asked(host, b"#01\r", SAID, 100)
             code, _ = ended(started)
@@ -196,7 +188,7 @@ def test_a_terminal_that_is_stopped_holds_up_nothing_and_gets_its_screen_back(vi
     with (
         terminal() as (person, program),
         process("--tcp", "0", "--view", view, stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
-        socket.create_connection(place(first_line(person)), timeout=5) as host,
+        socket.create_connection(place(first_line(person)), timeout=ENOUGH) as host,
     ):
         asked(host, b"#01\r", SAID, 10)
         os.write(person, b"\x13")
@@ -218,7 +210,7 @@ def test_a_terminal_that_goes_on_shows_what_is_there_then() -> None:
         terminal() as (person, program),
         process("--tcp", "0", stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
     ):
-        with socket.create_connection(place(first_line(person)), timeout=5) as host:
+        with socket.create_connection(place(first_line(person)), timeout=ENOUGH) as host:
             os.write(person, b"\x13")
             asked(host, b"#01\r", SAID, 1_000)
             asked(host, b"$01M\r", b"!017018\r", 1)
@@ -235,7 +227,7 @@ def test_a_terminal_that_nobody_reads_holds_up_nothing() -> None:
     with (
         terminal() as (person, program),
         process("--tcp", "0", stdout=program, stderr=subprocess.PIPE, env=XTERM) as started,
-        socket.create_connection(place(first_line(person)), timeout=5) as host,
+        socket.create_connection(place(first_line(person)), timeout=ENOUGH) as host,
     ):
         for _ in range(20):
             asked(host, b"#01\r", SAID, 100)
@@ -259,14 +251,14 @@ def test_without_file_descriptors_connections_wait_and_one_line_says_so(scheme: 
         assert started.stdout
         assert started.stderr
         where = place(first_line(started.stdout.fileno()))
-        with socket.create_connection(where, timeout=5) as first:
+        with socket.create_connection(where, timeout=ENOUGH) as first:
             asked(first, b"$01M\r", b"!017018\r", 1)
             with ExitStack() as stack:
                 for _ in range(60):
-                    stack.enter_context(socket.create_connection(where, timeout=5))
+                    stack.enter_context(socket.create_connection(where, timeout=ENOUGH))
                 sleep(2.5)
                 asked(first, b"$01M\r", b"!017018\r", 100)
-            with socket.create_connection(where, timeout=5) as later:
+            with socket.create_connection(where, timeout=ENOUGH) as later:
                 asked(later, b"$01M\r", b"!017018\r", 1)
         code, took = ended(started)
         errors = started.stderr.read()
@@ -291,7 +283,7 @@ def test_the_end_comes_however_full_the_pipe_of_errors_is() -> None:
         assert started.stdout
         where = place(first_line(started.stdout.fileno()))
         for _ in range(60):
-            stack.enter_context(socket.create_connection(where, timeout=5))
+            stack.enter_context(socket.create_connection(where, timeout=ENOUGH))
         sleep(0.5)
         code, took = ended(started)
     os.close(reading)

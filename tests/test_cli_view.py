@@ -15,6 +15,7 @@ from i7000 import Firmware, LineSettings, Model, Profile, Protocol, ReportSettin
 from i7000.cli.view import View
 from i7000.device import Signal, Signals, State, factory, power_on
 from i7000.simulator.observed import Observed
+from tests.waiting import ENOUGH
 
 HOT = (Signal(25.12, Unit.CELSIUS), Signal(1500.0, Unit.CELSIUS), Signal(-300.0, Unit.CELSIUS))
 SIGNALS = Signals((*HOT, Signal(5.0, Unit.CELSIUS), Signal(1.5, Unit.VOLT)))
@@ -237,7 +238,7 @@ def test_what_is_shown_appears_and_the_terminal_is_left_as_it_was() -> None:
     terminal = Terminal()
     with live(terminal) as view:
         view.show(heard())
-        appeared = terminal.written.wait(5)
+        appeared = terminal.written.wait(ENOUGH)
     text = terminal.getvalue()
 
     assert appeared
@@ -276,11 +277,11 @@ def test_a_terminal_that_is_stopped_holds_up_nobody() -> None:
         def write(self, text: str) -> int:
             if threading.current_thread() is not threading.main_thread():
                 stopped.set()
-                going_on.wait(10)
+                going_on.wait(ENOUGH)
             return super().write(text)
 
     with live(Stopped()) as view:
-        assert stopped.wait(5)
+        assert stopped.wait(ENOUGH)
         observed = heard()
         began = monotonic()
         for _ in range(1000):

@@ -13,12 +13,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from random import Random
 from time import monotonic
+from typing import Any
 
 import pytest
 
 from i7000.cli import app
 from i7000.cli.text import Printer
 from i7000_cli import CLOSED, FAILED, INTERRUPTED, program, roomy
+from tests.simulation import INPUTS, KELVIN, MAIN, SAID, process, talk
+from tests.waiting import ENOUGH
 
 PROGRAM = (sys.executable, "-m", "i7000_cli")
 MODELS = ("simulate", "--model", "I-7018")
@@ -62,7 +65,7 @@ def test_ctrl_c_while_importing_ends_it_without_a_word(command: tuple[str, ...],
         [sys.executable, "-c", INTERRUPTED_WHILE_IMPORTING, name, str(count), *arguments],
         capture_output=True,
         check=False,
-        timeout=60,
+        timeout=ENOUGH,
     )
 
     assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, b"", b"")
@@ -79,7 +82,7 @@ def test_ctrl_c_while_it_waits_for_input_ends_it_without_a_word() -> None:
         told = started.stdout.readline()
 
         started.send_signal(signal.SIGINT)
-        _, errors = started.communicate(timeout=20)
+        _, errors = started.communicate(timeout=ENOUGH)
 
     assert (started.returncode, errors) == (INTERRUPTED, b"")
     assert b"$012" in told
@@ -314,7 +317,7 @@ def on_a_terminal(*command: str) -> Iterator[tuple["subprocess.Popen[bytes]", Ca
         os.close(near)
 
         def read(until: bytes) -> bytes:
-            seen, deadline = b"", monotonic() + 30
+            seen, deadline = b"", monotonic() + ENOUGH
             while until not in seen and monotonic() < deadline:
                 if select.select([end], [], [], 0.1)[0]:
                     try:
@@ -335,13 +338,64 @@ def test_a_live_view_that_is_hung_up_leaves_the_terminal_as_it_was() -> None:
         before = read(b"I-7018")
         started.send_signal(signal.SIGHUP)
         after = read(b"no more")
-        code = started.wait(20)
+        code = started.wait(ENOUGH)
 
     assert code == 0
     assert b"\x1b[?1049h" in before
     assert b"\x1b[?1049l" in after
     assert b"\x1b[?25h" in after
     assert b"Traceback" not in after
+
+
+# --- a simulation that a script started -------------------------------------------------------------------------------
+
+
+WITHOUT_SIGNALS = (
+    "import asyncio; "
+    "asyncio.SelectorEventLoop.add_signal_handler = lambda *_: (_ for _ in ()).throw(NotImplementedError)"
+)
+
+
+PIPES: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
+    with process("--model", KELVIN, *INPUTS, **PIPES) as started:
+        assert started.stdout
+        path = started.stdout.readline().strip()
+        answers = talk(path, b"#01\r")
+
+        started.send_signal(ending)
+        rest, errors = started.communicate(timeout=ENOUGH)
+
+    assert answers == [SAID]
+    assert (started.returncode, rest, errors) == (0, "", "")
+    assert not Path(path).exists()
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals) -> None:
+    with process("--model", KELVIN, **PIPES) as started:
+        assert started.stdout
+        started.stdout.readline()
+
+        started.send_signal(ending)
+        rest, errors = started.communicate(timeout=ENOUGH)
+
+    assert (started.returncode, rest, errors) == (0, "", "")
+
+
+def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too() -> None:
+    with process("--model", KELVIN, main=f"{WITHOUT_SIGNALS}; {MAIN}", **PIPES) as started:
+        assert started.stdout
+        path = started.stdout.readline().strip()
+        talk(path, b"#01\r")
+
+        started.send_signal(signal.SIGINT)
+        rest, errors = started.communicate(timeout=ENOUGH)
+
+    assert (started.returncode, rest, errors) == (130, "", "")
 
 
 def test_the_exit_codes_are_those_that_the_help_names(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,7 @@ from i7000 import DataFormat, DecodeError, EncodeError, Noise, TypeCode, dcon
 from i7000.dcon.frame import checksum, seal, split, unseal
 from i7000.dissect import meanings
 from i7000.readings import decode_field
+from tests.each import each
 from tests.spec.lint import Record
 from tests.vectors import dcon_vectors, message_of, parameters, profile_of
 
@@ -26,7 +27,7 @@ def of_a_command(cases: list[Any]) -> list[Any]:
     return [case for case in cases if case.values[0]["command"] is not None]
 
 
-@pytest.mark.parametrize("vector", of_a_command(written("response", "refused", "silence", "reject")))
+@each("vector", of_a_command(written("response", "refused", "silence", "reject")))
 def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
@@ -37,43 +38,43 @@ def test_a_command_is_written_as_the_vector_says(vector: Record) -> None:
     assert wire(vector, "command") == dcon.encode(command, profile, force="host-refuses" in vector["flags"])
 
 
-@pytest.mark.parametrize("vector", of_a_command(dcon_vectors("response", "refused", "silence", "reject")))
+@each("vector", of_a_command(dcon_vectors("response", "refused", "silence", "reject")))
 def test_a_command_is_read_as_the_vector_says(vector: Record) -> None:
     assert message_of(vector["command"]) == dcon.decode_command(wire(vector, "command"), profile_of(vector["profile"]))
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused", "silence"))
+@each("vector", dcon_vectors("response", "refused", "silence"))
 def test_a_command_is_among_its_meanings(vector: Record) -> None:
     assert message_of(vector["command"]) in [it.message for it in meanings(wire(vector, "command"))]
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+@each("vector", dcon_vectors("response", "refused"))
 def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
     assert message_of(vector["response"]) == dcon.decode_response(wire(vector, "response"), command, profile)
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+@each("vector", dcon_vectors("response", "refused"))
 def test_a_response_is_among_its_meanings(vector: Record) -> None:
     assert message_of(vector["response"]) in [it.message for it in meanings(wire(vector, "response"))]
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("response", "refused"))
+@each("vector", dcon_vectors("response", "refused"))
 def test_a_response_is_not_longer_than_was_told(vector: Record) -> None:
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
     assert len(wire(vector, "response")) <= dcon.longest_response(command, profile)
 
 
-@pytest.mark.parametrize("vector", written("response", "refused"))
+@each("vector", written("response", "refused"))
 def test_a_response_is_written_as_the_vector_says(vector: Record) -> None:
     response, profile = message_of(vector["response"]), profile_of(vector["profile"])
 
     assert wire(vector, "response") == dcon.encode(response, profile)
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("silence"))
+@each("vector", dcon_vectors("silence"))
 def test_silence_is_expected_of_broadcasts_only(vector: Record) -> None:
     command = message_of(vector["command"])
 
@@ -81,7 +82,7 @@ def test_silence_is_expected_of_broadcasts_only(vector: Record) -> None:
     assert dcon.longest_response(command, profile_of(vector["profile"])) == 0
 
 
-@pytest.mark.parametrize("vector", dcon_vectors("reject"))
+@each("vector", dcon_vectors("reject"))
 def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
     profile = profile_of(vector["profile"])
 
@@ -96,7 +97,7 @@ def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record
     assert vector["fault"] == caught.value.fault.value
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/readings/rejected.json"))
+@each("vector", parameters("vectors/readings/rejected.json"))
 def test_a_field_that_is_no_reading_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
     data_format = DataFormat[vector["format"].upper()]
 
@@ -106,7 +107,7 @@ def test_a_field_that_is_no_reading_is_rejected_with_the_fault_of_the_vector(vec
     assert vector["fault"] == caught.value.fault.value
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/readings/channels.json"))
+@each("vector", parameters("vectors/readings/channels.json"))
 def test_a_field_is_read_with_the_type_of_its_channel(vector: Record) -> None:
     command, response = message_of(vector["command"]), message_of(vector["response"])
     profile = profile_of(vector["profile"])
@@ -120,7 +121,7 @@ def test_a_field_is_read_with_the_type_of_its_channel(vector: Record) -> None:
     assert vector["statuses"] == [reading.status.value for reading in found]
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/frames/checksums.json"))
+@each("vector", parameters("vectors/frames/checksums.json"))
 def test_checksums_are_those_of_the_vectors(vector: Record) -> None:
     body = bytes.fromhex(vector["body"])
 
@@ -145,7 +146,7 @@ def events(stream: bytes, size: int, *, checksum: bool) -> tuple[list[Record], b
     return found, rest
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/frames/split.json"))
+@each("vector", parameters("vectors/frames/split.json"))
 def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record) -> None:
     stream = bytes.fromhex(vector["stream"])
 

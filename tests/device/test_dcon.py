@@ -16,6 +16,7 @@ from i7000 import (
 )
 from i7000.device import Signals
 from tests.device.driver import Bench, bench
+from tests.each import each
 from tests.vectors import AVAILABILITY
 
 M_MODELS = sorted((model for model in Model if model.value.startswith("M")), key=lambda model: model.value)
@@ -143,7 +144,7 @@ COMMANDS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("section", COMMANDS)
+@each("section", COMMANDS)
 @pytest.mark.parametrize("model", Model, ids=lambda model: model.value)
 def test_every_module_answers_every_command_that_it_has_and_no_other(model: Model, section: str) -> None:
     module = bench(model)

@@ -8,6 +8,7 @@ from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
 from i7000.device import Uart
 from i7000.device.uart import _levels, _sampled, hear_at
 from i7000.strategies.device import uarts
+from tests.each import each
 
 UARTS = uarts()
 
@@ -39,7 +40,7 @@ def test_no_settings_make_more_characters_than_there_is_time_for(data: bytes, se
     assert len(hear_at(data, sent, heard)) <= max(len(data), time / heard.character_time * 1.2 + 1)
 
 
-@pytest.mark.parametrize("byte", range(256))
+@each("byte", range(256))
 def test_a_parity_bit_is_a_stop_bit_to_who_expects_none(byte: int) -> None:
     odd = byte.bit_count() & 1
 

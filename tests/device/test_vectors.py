@@ -2,12 +2,12 @@
 
 from typing import Any
 
-import pytest
 from attrs import evolve
 
 from i7000 import Firmware, Model, Protocol, ReportSettings, TypeCode, dcon, modbus
 from i7000.device import Eeprom, factory
 from tests.device.driver import bench
+from tests.each import each
 from tests.spec.lint import Record
 from tests.vectors import parameters, profile_of
 
@@ -57,7 +57,7 @@ def dcon_address(wire: bytes) -> int:
     return int(digits, 16) if len(digits) == 2 and set(digits) <= set("0123456789ABCDEF") else 1
 
 
-@pytest.mark.parametrize("vector", stateless("vectors/dcon", "command"))
+@each("vector", stateless("vectors/dcon", "command"))
 def test_a_dcon_module_is_silent_refuses_or_answers_as_the_vector_says(vector: Record) -> None:
     wire = bytes.fromhex(vector["command_wire"])
 
@@ -74,7 +74,7 @@ def test_a_dcon_module_is_silent_refuses_or_answers_as_the_vector_says(vector: R
         assert not changed or vector["outcome"] == "silence"
 
 
-@pytest.mark.parametrize("vector", stateless("vectors/modbus", "request"))
+@each("vector", stateless("vectors/modbus", "request"))
 def test_a_modbus_module_is_silent_excepts_or_answers_as_the_vector_says(vector: Record) -> None:
     wire = bytes.fromhex(vector["request_wire"])
     address = wire[0] if 1 <= wire[0] <= 247 else 1

@@ -8,6 +8,7 @@ from i7000.dissect.finder import find
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import pieces
 from tests.dissect.frames import REQUEST, RESPONSE
+from tests.each import each
 from tests.spec.lint import vectors
 
 READ_8 = bytes.fromhex("010400000008F1CC")
@@ -134,7 +135,7 @@ def printed_examples() -> list[Any]:
     return [pytest.param(vector, id=vector["id"]) for vector in examples]
 
 
-@pytest.mark.parametrize("vector", printed_examples())
+@each("vector", printed_examples())
 @pytest.mark.parametrize(
     "words", ["Command: {}    Response: {}", "Command : {} Receive : {}", "{} -> {}", "TX: {} RX: {}"]
 )

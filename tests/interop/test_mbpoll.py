@@ -24,6 +24,7 @@ from tests.interop.scenes import (
     Scene,
 )
 from tests.simulator.running import Running, running
+from tests.waiting import ENOUGH
 
 INPUT_REGISTERS, HOLDING_REGISTERS, DISCRETE_INPUTS, COILS = "3", "4", "1", "0"
 LONG_NUMBERS = "4:int"
@@ -43,7 +44,7 @@ def mbpoll(here: Running, table: str, first: int, *values: int, count: int = 1, 
     how = ("-m", "rtu", "-b", "9600", "-P", "none", "-1", "-q", "-o", "0.3")
     what = ("-a", address, "-t", table, "-r", str(first), *(() if values else ("-c", str(count))))
     command = [program("mbpoll"), *how, *what, here.place, *map(str, values)]
-    ran = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)  # noqa: S603 - our arguments
+    ran = subprocess.run(command, check=False, capture_output=True, text=True, timeout=ENOUGH)  # noqa: S603 - our arguments
     found = re.findall(r"^\[(\d+)\]:\s+(\d+)", ran.stdout, re.MULTILINE)
     return Polled(ran.returncode, {int(number): int(item) for number, item in found}, ran.stderr.strip())
 
@@ -205,6 +206,6 @@ def test_nobody_answers_for_a_module_that_is_not_there_or_speaks_dcon(address: s
 def test_a_function_that_no_module_has_is_an_exception() -> None:
     with running(open_pty, VOLTAGES.simulated) as here:
         command = [program("mbpoll"), "-m", "rtu", "-b", "9600", "-P", "none", "-u", here.place]
-        ran = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)  # noqa: S603
+        ran = subprocess.run(command, check=False, capture_output=True, text=True, timeout=ENOUGH)  # noqa: S603
 
     assert ran.stderr.strip() == "Report slave ID failed(-1): Illegal function"

@@ -6,6 +6,7 @@ import pytest
 
 from i7000 import DecodeError, Firmware, LineSettings, Reading, modbus
 from i7000.modbus.register_values import counts_of
+from tests.each import each
 from tests.spec.lint import Record, load, table_files
 from tests.vectors import parameters, profile_of
 
@@ -50,7 +51,7 @@ def expected(vector: Record) -> list[tuple[Any, str | None]]:
     return list(zip(vector["values"], statuses, strict=True))
 
 
-@pytest.mark.parametrize("vector", READ)
+@each("vector", READ)
 def test_items_are_read_as_the_vector_says(vector: Record) -> None:
     row, values = decoded(vector)
 
@@ -63,7 +64,7 @@ def test_items_are_read_as_the_vector_says(vector: Record) -> None:
     assert {vector["unit"]} == (units or {row.unit})
 
 
-@pytest.mark.parametrize("vector", WRITTEN)
+@each("vector", WRITTEN)
 def test_values_are_written_as_the_vector_says(vector: Record) -> None:
     row, values = decoded(vector)
     profile = profile_of(vector["profile"])
@@ -78,7 +79,7 @@ def test_values_are_written_as_the_vector_says(vector: Record) -> None:
     assert tuple(vector["items"]) == items
 
 
-@pytest.mark.parametrize("vector", [case for case in WRITTEN if case.values[0]["name"] in WRITABLE])
+@each("vector", [case for case in WRITTEN if case.values[0]["name"] in WRITABLE])
 def test_a_write_has_the_items_of_the_vector(vector: Record) -> None:
     row, values = decoded(vector)
     registers = modbus.RegisterMap(profile_of(vector["profile"]))
@@ -95,7 +96,7 @@ def test_a_write_has_the_items_of_the_vector(vector: Record) -> None:
     assert row.address + vector["first"] == start
 
 
-@pytest.mark.parametrize("vector", REJECTED)
+@each("vector", REJECTED)
 def test_items_without_a_value_are_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
     with pytest.raises(DecodeError) as caught:
         decoded(vector)

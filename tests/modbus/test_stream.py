@@ -7,6 +7,7 @@ import pytest
 
 from i7000 import DecodeError, Fault, Model, Noise, Profile, modbus
 from i7000.modbus import LONGEST_FRAME, Side, drop_echo, flush, seal, split
+from tests.each import each
 from tests.spec.lint import Record, vectors
 from tests.vectors import parameters, profile_of
 
@@ -186,7 +187,7 @@ def recorded(events: Iterable[bytes | Noise]) -> list[Record]:
     return found
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/frames/rtu_split.json"))
+@each("vector", parameters("vectors/frames/rtu_split.json"))
 def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record) -> None:
     stream, side = bytes.fromhex(vector["stream"]), Side(vector["side"])
     profile = None if vector["profile"] is None else profile_of(vector["profile"])

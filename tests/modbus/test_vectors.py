@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from i7000 import DecodeError, EncodeError, modbus
+from tests.each import each
 from tests.spec.lint import Record
 from tests.vectors import modbus_message_of, modbus_vectors, parameters, profile_of, written_modbus_vectors
 
@@ -13,7 +14,7 @@ def wire(record: Record, name: str) -> bytes:
     return bytes.fromhex(record[f"{name}_wire"])
 
 
-@pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception", "silence"))
+@each("vector", written_modbus_vectors("response", "exception", "silence"))
 def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
     request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
     may_be_refused = bool({"host-refuses", "host-may-refuse"} & set(vector["flags"]))
@@ -27,7 +28,7 @@ def test_a_request_is_written_as_the_vector_says(vector: Record) -> None:
         assert wire(vector, "request") == modbus.encode(request)
 
 
-@pytest.mark.parametrize("vector", modbus_vectors("response", "exception", "silence"))
+@each("vector", modbus_vectors("response", "exception", "silence"))
 def test_a_request_is_read_as_the_vector_says(vector: Record) -> None:
     request = modbus.decode_request(wire(vector, "request"), profile_of(vector["profile"]))
 
@@ -35,14 +36,14 @@ def test_a_request_is_read_as_the_vector_says(vector: Record) -> None:
     assert modbus.is_answered(request) == (vector["outcome"] != "silence")
 
 
-@pytest.mark.parametrize("vector", written_modbus_vectors("response", "exception"))
+@each("vector", written_modbus_vectors("response", "exception"))
 def test_a_response_is_written_as_the_vector_says(vector: Record) -> None:
     response, profile = modbus_message_of(vector["response"]), profile_of(vector["profile"])
 
     assert wire(vector, "response") == modbus.encode(response, profile)
 
 
-@pytest.mark.parametrize("vector", modbus_vectors("response", "exception"))
+@each("vector", modbus_vectors("response", "exception"))
 def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
     request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
 
@@ -50,7 +51,7 @@ def test_a_response_is_read_as_the_vector_says(vector: Record) -> None:
     assert len(wire(vector, "response")) <= modbus.longest_response(request, profile)
 
 
-@pytest.mark.parametrize("vector", modbus_vectors("reject"))
+@each("vector", modbus_vectors("reject"))
 def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record) -> None:
     profile = profile_of(vector["profile"])
 
@@ -66,7 +67,7 @@ def test_a_damaged_frame_is_rejected_with_the_fault_of_the_vector(vector: Record
     assert caught.value.wire == wire(vector, "request" if vector["response_wire"] is None else "response")
 
 
-@pytest.mark.parametrize("vector", [case for case in modbus_vectors("reject") if case.values[0]["request"] is not None])
+@each("vector", [case for case in modbus_vectors("reject") if case.values[0]["request"] is not None])
 def test_of_a_rejected_frame_the_request_is_written_or_is_what_is_refused(vector: Record) -> None:
     request, profile = modbus_message_of(vector["request"]), profile_of(vector["profile"])
 
@@ -78,7 +79,7 @@ def test_of_a_rejected_frame_the_request_is_written_or_is_what_is_refused(vector
         assert wire(vector, "request") == modbus.encode(request, profile, force=True)
 
 
-@pytest.mark.parametrize("vector", parameters("vectors/frames/crc.json"))
+@each("vector", parameters("vectors/frames/crc.json"))
 def test_crcs_are_those_of_the_vectors(vector: Record) -> None:
     body, crc = bytes.fromhex(vector["body"]), bytes.fromhex(vector["crc"])
 

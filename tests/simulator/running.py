@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, contextmanager
 from functools import partial
 from threading import Thread
-from time import monotonic, sleep
 from typing import Any, TypeVar
 
 import serial
@@ -21,6 +20,7 @@ from i7000.simulator.rfc2217 import Rfc2217Connection
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.sources import Fixed, Sources, default_sources
 from i7000.simulator.tcp import listen
+from tests.waiting import ENOUGH
 
 __all__ = [
     "I_7018",
@@ -35,12 +35,10 @@ __all__ = [
     "module",
     "port",
     "running",
-    "until",
 ]
 
 T = TypeVar("T")
 Transport = Callable[[Simulator], AbstractAsyncContextManager[str]]
-_ENOUGH = 20.0
 
 
 def module(
@@ -72,7 +70,7 @@ class Running:
         async def called() -> T:
             return function()
 
-        return asyncio.run_coroutine_threadsafe(called(), self.loop).result(_ENOUGH)
+        return asyncio.run_coroutine_threadsafe(called(), self.loop).result(ENOUGH)
 
 
 @contextmanager
@@ -97,14 +95,14 @@ def running(
     thread = Thread(target=loop.run_forever, daemon=True)
     thread.start()
     try:
-        here, task = asyncio.run_coroutine_threadsafe(start(), loop).result(_ENOUGH)
+        here, task = asyncio.run_coroutine_threadsafe(start(), loop).result(ENOUGH)
         try:
             yield here
         finally:
-            asyncio.run_coroutine_threadsafe(stop(here.simulator, task), loop).result(_ENOUGH)
+            asyncio.run_coroutine_threadsafe(stop(here.simulator, task), loop).result(ENOUGH)
     finally:
         loop.call_soon_threadsafe(loop.stop)
-        thread.join(_ENOUGH)
+        thread.join(ENOUGH)
         loop.close()
 
 
@@ -123,7 +121,7 @@ TRANSPORTS: dict[str, Transport] = {"pty": open_pty, "socket": listen, "rfc2217"
 def port(here: Running, scheme: str, **settings: Any) -> Iterator[serial.Serial]:
     """What a host opens."""
     url = here.place if scheme == "pty" else f"{scheme}://{here.place}"
-    opened: Any = serial.serial_for_url(url, timeout=2, **settings)
+    opened: Any = serial.serial_for_url(url, timeout=ENOUGH, **settings)
     with opened:
         yield opened
 
@@ -131,21 +129,13 @@ def port(here: Running, scheme: str, **settings: Any) -> Iterator[serial.Serial]
 def connected(here: Running) -> socket.socket:
     """A connection without a protocol."""
     host, _, number = here.place.rpartition(":")
-    return socket.create_connection((host, int(number)), timeout=2)
+    return socket.create_connection((host, int(number)), timeout=ENOUGH)
 
 
 def ask(opened: serial.Serial, request: bytes, length: int) -> bytes:
     """Send a request, and read so many bytes."""
     opened.write(request)
     return bytes(opened.read(length))
-
-
-def until(holds: Callable[[], object]) -> None:
-    """Wait until something holds, or fail."""
-    deadline = monotonic() + _ENOUGH
-    while not holds():
-        assert monotonic() < deadline
-        sleep(0.01)
 
 
 class Network(asyncio.Transport):

@@ -17,7 +17,8 @@ from i7000.simulator import tcp
 from i7000.simulator.faults import Faults
 from i7000.simulator.simulator import UNREAD, Simulator
 from i7000.simulator.tcp import MOST_CONNECTIONS, Connection, listen
-from tests.simulator.running import I_7018, RFC_2217, Network, ask, connected, module, port, running, until
+from tests.simulator.running import I_7018, RFC_2217, Network, ask, connected, module, port, running
+from tests.waiting import ENOUGH, until
 
 
 def opened_at(host: str, number: int = 0) -> str:
@@ -54,7 +55,7 @@ def test_every_address_of_this_machine_has_the_same_port(host: str) -> None:
         _, _, number = here.place.rpartition(":")
         answers = []
         for address in ("127.0.0.1", "::1"):
-            with socket.create_connection((address, int(number)), timeout=2) as host_:
+            with socket.create_connection((address, int(number)), timeout=ENOUGH) as host_:
                 host_.sendall(b"$01M\r")
                 answers.append(host_.recv(100))
 

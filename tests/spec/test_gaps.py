@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.each import each
 from tests.spec import lint
 from tests.spec.test_modbus import FUNCTIONS, MAPS, READ, WRITE, WRITE_MORE, has, touched
 
@@ -47,7 +48,7 @@ def code_of(vector: Record) -> int:
     return 3 if start in places(profile, area, way) or count > (most or count) else 2
 
 
-@pytest.mark.parametrize("vector", [pytest.param(vector, id=vector["id"]) for vector in EXCEPTIONS])
+@each("vector", [pytest.param(vector, id=vector["id"]) for vector in EXCEPTIONS])
 def test_the_start_decides_between_02_and_03(vector: Record) -> None:
     assert vector["response"]["fields"]["exception_code"] == code_of(vector)
 

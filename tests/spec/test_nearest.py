@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.each import each
 from tests.spec import lint
 from tests.spec.nearest import COMMANDS, command_of, digits, pieces, response_fault
 
@@ -44,7 +45,7 @@ def test_the_examples_of_the_readme_are_what_its_rule_gives() -> None:
         assert ("", fault) == command_of(body, {**profile, "model": model}), body
 
 
-@pytest.mark.parametrize("vector", named([vector for vector in VECTORS if vector["command"] is None]))
+@each("vector", named([vector for vector in VECTORS if vector["command"] is None]))
 def test_a_command_that_is_rejected_has_the_fault_of_the_rule(vector: Record) -> None:
     body = body_of(vector["command_wire"], vector["profile"])
 
@@ -54,9 +55,7 @@ def test_a_command_that_is_rejected_has_the_fault_of_the_rule(vector: Record) ->
         assert ("", vector["fault"]) == command_of(body, vector["profile"])
 
 
-@pytest.mark.parametrize(
-    "vector", named([vector for vector in VECTORS if vector["command"] and vector["outcome"] != "silence"])
-)
+@each("vector", named([vector for vector in VECTORS if vector["command"] and vector["outcome"] != "silence"]))
 def test_a_command_that_is_read_is_the_one_of_the_rule(vector: Record) -> None:
     body = body_of(vector["command_wire"], vector["profile"])
 
@@ -64,7 +63,7 @@ def test_a_command_that_is_read_is_the_one_of_the_rule(vector: Record) -> None:
     assert (ROWS[vector["command"]["type"]]["section"], "") == command_of(body, vector["profile"])
 
 
-@pytest.mark.parametrize(
+@each(
     "vector",
     named([vector for vector in VECTORS if vector["outcome"] == "reject" and vector["response_wire"] is not None]),
 )
@@ -92,9 +91,7 @@ def written(row: Record, values: Record, profile: Record) -> str:
     return found
 
 
-@pytest.mark.parametrize(
-    "vector", named([vector for vector in VECTORS if vector["command"] and "decode-only" not in vector["flags"]])
-)
+@each("vector", named([vector for vector in VECTORS if vector["command"] and "decode-only" not in vector["flags"]]))
 def test_a_command_is_its_syntax_with_its_fields(vector: Record) -> None:
     row, values = ROWS[vector["command"]["type"]], vector["command"]["fields"]
 

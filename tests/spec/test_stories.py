@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.crc import crc
+from tests.each import each
 from tests.spec import lint
 
 if TYPE_CHECKING:
@@ -75,14 +76,14 @@ def test_every_section_with_behaviour_has_a_story() -> None:
     assert wanted - told == set()
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_time_does_not_go_back(story: Record) -> None:
     times = [step["at"] for step in story["steps"]]
 
     assert times == sorted(times)
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_only_a_module_with_power_is_spoken_to(story: Record) -> None:
     powered = False
     wrong = []
@@ -99,7 +100,7 @@ def test_only_a_module_with_power_is_spoken_to(story: Record) -> None:
     assert wrong == []
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_the_init_switch_is_at_power_on_where_it_was_moved(story: Record) -> None:
     """The switch is moved by steps of its own; a power-on only says where it is."""
     position = False
@@ -113,7 +114,7 @@ def test_the_init_switch_is_at_power_on_where_it_was_moved(story: Record) -> Non
     assert wrong == []
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_module_has_time_to_settle(story: Record) -> None:
     changed = -float("inf")
     early = []
@@ -137,7 +138,7 @@ def pause(message: Record) -> float:
     return 3 if loading else 0.002 * broadcast(message)
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_the_pauses_owed_are_kept(story: Record) -> None:
     following = [step["at"] for step in story["steps"][1:]] + [float("inf")]
     early = [
@@ -149,7 +150,7 @@ def test_the_pauses_owed_are_kept(story: Record) -> None:
     assert early == []
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_text_says_what_its_wire_says(story: Record) -> None:
     wrong = [
         message
@@ -170,7 +171,7 @@ def answers(step: Record) -> bool:
     return whole and step["expect"]["text"] is not None
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_what_is_expected_can_be_an_answer(story: Record) -> None:
     wrong = [step for step in steps(story, "send") if step["expect"] is not None and not answers(step)]
 
@@ -178,14 +179,14 @@ def test_what_is_expected_can_be_an_answer(story: Record) -> None:
     assert any(step["expect"] is not None for step in steps(story, "send"))
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_broadcast_is_not_answered(story: Record) -> None:
     wrong = [step for step in steps(story, "send") if step["expect"] is not None and broadcast(step["send"])]
 
     assert wrong == []
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_profile_fits_its_model(story: Record) -> None:
     profile = story["profile"]
     model = MODELS[profile["model"]]
@@ -200,7 +201,7 @@ def test_a_profile_fits_its_model(story: Record) -> None:
     assert not profile["report_settings"] & 0x20 or model["fast_mode"]
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_signal_goes_to_an_input_that_is_there(story: Record) -> None:
     model = MODELS[story["profile"]["model"]]
     inputs = {str(number) for number in range(channels(story["profile"]))} | ({"cjc"} if model["cjc"] else set())
@@ -211,7 +212,7 @@ def test_a_signal_goes_to_an_input_that_is_there(story: Record) -> None:
     assert not opened or model["open_wire_detection"]
 
 
-@pytest.mark.parametrize("story", STORIES)
+@each("story", STORIES)
 def test_a_story_names_what_its_steps_rest_on(story: Record) -> None:
     used = {step["erratum"] for step in steps(story, "send")} - {None}
     assumed = any(ERRATA[erratum]["assumption"] for erratum in story["errata"])
@@ -228,7 +229,7 @@ PRINTED = [
 ]
 
 
-@pytest.mark.parametrize("vector", PRINTED)
+@each("vector", PRINTED)
 def test_every_printed_exchange_happens_in_a_story_of_the_manual(vector: Record) -> None:
     told = [
         (step["send"]["wire"], step["expect"] and step["expect"]["wire"])
