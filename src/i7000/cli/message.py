@@ -15,11 +15,11 @@ from attrs import evolve
 from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
 from i7000.cli.by_register import held, is_of_registers
 from i7000.cli.choices import chosen
-from i7000.cli.numbers import hex_byte, integer
+from i7000.cli.numbers import baud_rate, hex_byte, integer
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
-from i7000.cli.words import UsageError, baud_rate, near, truth, type_code
+from i7000.cli.words import UsageError, near, truth, type_code
 from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
