@@ -151,6 +151,7 @@ def _fields_of(value: Any) -> dict[str, Any]:
 CALLS = (
     call("i7000.BaudRate.of", 6, on=BaudRate),
     call("i7000.DataFormat.of", 1, on=DataFormat),
+    call("i7000.TypeCode.name_of", 15, on=TypeCode),
     call("i7000.TypeCode.of", 15, on=TypeCode),
     call("i7000.Firmware", "B3.7"),
     call("i7000.Firmware.from_bytes", bytes((0x0B, 3, 7)), on=Firmware),
@@ -178,7 +179,6 @@ CALLS = (
         "dcon.Configuration.command", new_address=2, type_code=5,
         on=dcon.Configuration(1, 5, i7000.LineSettings(), i7000.ReportSettings()),
     ),
-    call("dcon.candidates", b"$012\r"),
     call("dcon.channels_of", 0x3A),
     call("dcon.checksum", b"$012"),
     call("dcon.decode_command", b"#010\r", _I7018),
@@ -192,7 +192,6 @@ CALLS = (
     call("dcon.pause_after", _READ, _I7018),
     call("dcon.reading", dcon.AnalogInput("+1.0000"), 0, _I7018, lenient=False),
     call("dcon.readings", _REPORT, _I7018, lenient=False),
-    call("dcon.response_candidates", b"!01\r"),
     call("dcon.seal", b"$012", checksum=True),
     call("dcon.split", b"$012\r$0", checksum=False),
     call("dcon.unseal", b"$012\r", checksum=False, leads=b"$"),

@@ -9,11 +9,12 @@ import pytest
 from i7000 import Protocol
 from i7000.cli import main
 from i7000.cli.decode import records
+from i7000.cli.words import UsageError
 from i7000.dissect import Knowledge, Known
 from tests.spec.lint import Record
 from tests.vectors import profile_of
 
-__all__ = ["Run", "Told", "known_of", "logged", "plain", "run"]
+__all__ = ["Run", "Told", "known_of", "logged", "plain", "refusal", "run"]
 
 
 @pytest.fixture
@@ -65,3 +66,12 @@ def known_of(vector: Record) -> Known:
         profile.checksum,
         profile.single_ended,
     )
+
+
+def refusal(read: Callable[[], object]) -> str:
+    """Why nothing can be read; empty if it can."""
+    try:
+        read()
+    except UsageError as refused:
+        return str(refused)
+    return ""

@@ -23,6 +23,7 @@ from i7000 import (
     modbus,
 )
 from i7000.arguments import as_bytes
+from i7000.dissect import meanings
 from tests.calls import BASES, CALLS, LEFT_OUT, Call, surface
 from tests.each import each
 
@@ -108,12 +109,12 @@ def test_a_memoryview_that_was_released_is_refused() -> None:
     view.release()
 
     with pytest.raises(ArgumentError, match=r"frame cannot be .*: bytes, bytearray or memoryview, not released"):
-        dcon.candidates(view)  # type: ignore[arg-type]
+        meanings(view)  # type: ignore[arg-type]
 
 
 def test_an_error_names_the_argument_what_was_given_and_what_is_allowed() -> None:
     with pytest.raises(ArgumentError) as caught:
-        dcon.candidates("$012\r")  # type: ignore[arg-type]
+        meanings("$012\r")  # type: ignore[arg-type]
 
     assert str(caught.value) == r"frame cannot be '$012\r' (str): bytes, bytearray or memoryview"
     assert (caught.value.argument, caught.value.value) == ("frame", "$012\r")
@@ -150,7 +151,7 @@ class Unwritable:
 
 def test_a_value_that_cannot_be_written_is_refused_all_the_same() -> None:
     with pytest.raises(ArgumentError, match=r"frame cannot be a value that cannot be written, of Unwritable"):
-        dcon.candidates(Unwritable())  # type: ignore[arg-type]
+        meanings(Unwritable())  # type: ignore[arg-type]
 
 
 def test_a_text_that_is_no_reading_is_told_as_such() -> None:

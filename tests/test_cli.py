@@ -219,7 +219,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode $012 --type Q", "'Q' is no type"),
         ("decode $012 --type 20", "type 20 of '20' is not defined: 00..1C"),
         ("decode $012 --type MIXED,K", "type FF of 'MIXED,K' is not defined"),
-        ("decode $012 --type K --model I-7017", "type_codes cannot be '0F': "),
+        ("decode $012 --type K --model I-7017", "type_codes cannot be 'K': "),
         ("decode $012 --type K,K,K", "of them, or none"),
         ("decode $012 --type K,J,K --model I-7019R", "8 of them"),
         ("decode $012 --single-ended --model I-7018", "single_ended cannot be True"),

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from i7000.cli.numbers import hex_byte, integer
 from i7000.cli.words import UsageError
-from i7000.dissect.numbers import address_words
+from i7000.describe import address as address_words
 
 
 @given(st.integers(-0xFFFFFFFF, 0xFFFFFFFF))

@@ -53,7 +53,12 @@ def test_single_ended_inputs_are_twenty() -> None:
             "type_codes",
             "one type for all channels",
         ),
-        (Model.I_7017, {"type_codes": (TypeCode.MA_4_20,) * 8, "firmware": Firmware("B2.1")}, "type_codes", "08 09 0A"),
+        (
+            Model.I_7017,
+            {"type_codes": (TypeCode.MA_4_20,) * 8, "firmware": Firmware("B2.1")},
+            "type_codes",
+            "V_10 V_5 V_1_0A",
+        ),
         (Model.M_7017, {"single_ended": True}, "single_ended", "7017Z only"),
         (Model.M_7017Z, {"single_ended": 1}, "single_ended", "a bool"),
         (Model.M_7017Z, {"checksum": None}, "checksum", "a bool"),
@@ -125,9 +130,9 @@ OLD = Profile(Model.M_7019R, firmware=Firmware("B2.6"))
     [
         (I_7018.check_channel, (0, 7), (8, -1), "0..7: I-7018"),
         (M_7017Z.check_channel, (19,), (20,), "0..19: M-7017Z"),
-        (I_7018.check_mask, (0, 0xFF), (0x100, -1), "bits 0..7: I-7018"),
-        (M_7017Z.check_mask, (0xFFFFF,), (0x100000,), "bits 0..19: M-7017Z"),
-        (I_7018.check_type_code, (0x05, TypeCode.K), (0x08, 0xFF), "00 01 .*: I-7018"),
+        (I_7018.check_mask, (0, 0xFF), (0x100, -1), "I-7018 has no channel 8: 0..7"),
+        (M_7017Z.check_mask, (0xFFFFF,), (0x100000,), "M-7017Z has no channel 20: 0..19"),
+        (I_7018.check_type_code, (0x05, TypeCode.K), (0x08, 0xFF), "MV_15 MV_50 .*: I-7018"),
         (
             I_7018.check_line,
             (LineSettings(BaudRate.BAUD_115200), LineSettings(character_format=CharacterFormat.O81)),

@@ -7,7 +7,7 @@ RACE = """
 import sys
 from threading import Barrier, Thread
 
-from i7000 import Model, Profile, dcon, device, modbus
+from i7000 import Model, Profile, dcon, device, dissect, modbus
 from i7000.modbus.frame import _TWO
 
 THREADS = 8
@@ -27,8 +27,8 @@ def race(place):
         modbus.decode_response(bytes.fromhex("018402c2c1"), modbus.ReadInputRegisters(1, 200, 1), PROFILE),
         modbus.RegisterMap(PROFILE).rows,
         dcon.encode(dcon.ReadConfiguration(1), PROFILE),
-        dcon.candidates(b"#0184\\r"),
-        dcon.response_candidates(b"!01050600AD\\r"),
+        [meaning.message for meaning in dissect.meanings(b"#0184\\r")],
+        [meaning.message for meaning in dissect.meanings(b"!01050600AD\\r")],
         device.step(state, REQUEST, device.Signals(), 0.0)[1],
     )
 

@@ -14,6 +14,7 @@ from i7000.settings import BaudRate, DataFormat, Filter, LineSettings, ReportSet
 from i7000.type_codes import MIXED, TypeCode
 
 __all__ = [
+    "address",
     "firmware",
     "hex_byte",
     "line_settings",
@@ -38,6 +39,15 @@ def value(it: Any) -> str:  # noqa: ANN401 - of any field
     if isinstance(it, Enum):
         return it.name.lower()
     return f"{it:.7g}" if isinstance(it, float) else str(it)
+
+
+def address(number: int) -> str:
+    """Describe an address so that nobody can take it for another one: in hex, and in decimal where that differs.
+
+    >>> address(0x01), address(0x0A), address(0x10)
+    ('01', '0Ah (10)', '10h (16)')
+    """
+    return f"{number:02X}" if number <= 9 else f"{number:02X}h ({number})"
 
 
 def hex_byte(byte: int) -> str:

@@ -136,6 +136,13 @@ class StateError(I7000Error):
     """A call at the wrong time: a request is still open, or the clock went back; the text says what to do instead."""
 
 
+def _named(value: object) -> object:
+    """A member of an enumeration by its name, alone or in a tuple."""
+    if type(value) is tuple:
+        return tuple(map(_named, value))
+    return value.name if isinstance(value, Enum) else value
+
+
 _SHOWN = 60
 """Characters of a value that a message shows; the attribute holds all of it."""
 
@@ -143,7 +150,7 @@ _SHOWN = 60
 def shown(value: object) -> str:
     """Write a value for a message: whole if that is short, and never with an error of its own."""
     try:
-        text = repr(value)
+        text = repr(_named(value))
     except ValueError:  # sys.set_int_max_str_digits
         return f"a number too long to be written, of or in {type(value).__name__}"
     except Exception:  # noqa: BLE001 - a `__repr__` of another's

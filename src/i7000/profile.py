@@ -137,7 +137,7 @@ class Profile:
         return self.has(CONFIGURABLE)
 
     def supported_types(self) -> str:
-        """The types that the module can be set to, as the manual writes them: for messages."""
+        """The names of the types that the module can be set to: for messages."""
         return _supported_types(self.model, self.firmware)
 
     def _check_kinds(self) -> None:
@@ -193,8 +193,11 @@ class Profile:
         """
         if mask.__class__ is not int:
             check_int("mask", mask)
-        if mask >> self.channels:
-            raise EncodeError("mask", f"{mask:X}", f"bits 0..{self.channels - 1}: {self.model.value}", section)
+        beyond = mask >> self.channels
+        if beyond:
+            lowest = self.channels - 1 + (beyond & -beyond).bit_length()
+            reason = f"{self.model.value} has no channel {lowest}"
+            raise EncodeError("mask", f"{mask:X}", f"0..{self.channels - 1}", section, reason)
 
     def check_type_code(self, type_code: int, section: str, *, field: str = "type_code") -> None:
         """Refuse a type code that the module cannot be set to.
@@ -203,7 +206,7 @@ class Profile:
         """
         if not self.supports(type_code):
             allowed = f"{self.supported_types()}: {self.model.value}"
-            raise EncodeError(field, f"{type_code:02X}", allowed, section)
+            raise EncodeError(field, TypeCode.name_of(type_code), allowed, section)
 
     def check_line(self, line: LineSettings, section: str) -> None:
         """Refuse a line that the module cannot be set to.
@@ -300,7 +303,7 @@ def _types(
     for code in kinds:
         if not _supports(code, model, firmware):
             allowed = f"{_supported_types(model, firmware)}: {model.value}"
-            raise EncodeError("type_codes", f"{code:02X}", allowed, "1.11")
+            raise EncodeError("type_codes", code.name, allowed, "1.11")
     if len(kinds) > 1 and not (model in CONFIGURABLE and _runs(firmware, CONFIGURABLE[model])):
         raise EncodeError("type_codes", codes, f"one type for all channels: {model.value}", "2.15")
     return tuple(code.unit for code in codes), _numbers(codes[0], channels) if len(kinds) == 1 else None
@@ -315,7 +318,7 @@ def _supports(code: TypeCode, model: Model, firmware: Firmware | None) -> bool:
 
 
 def _supported_types(model: Model, firmware: Firmware | None) -> str:
-    return " ".join(f"{code:02X}" for code in model.type_codes if _supports(code, model, firmware))
+    return " ".join(code.name for code in model.type_codes if _supports(code, model, firmware))
 
 
 def _numbers(code: TypeCode, channels: int) -> Numbers:

@@ -81,6 +81,16 @@ class TypeCode(IntEnum):
     V_150 = 0x1B
     V_50 = 0x1C
 
+    @staticmethod
+    def name_of(code: int) -> str:
+        """Return the name of a type, or the two hex digits of a code that is undefined.
+
+        >>> TypeCode.name_of(0x0F), TypeCode.name_of(0x20)
+        ('K', '20')
+        """
+        known = TypeCode.of(code)
+        return known.name if isinstance(known, TypeCode) else f"{code:02X}"
+
     @classmethod
     def of(cls, code: int) -> "TypeCode | int":
         """The member of `code`; a code that is none (`MIXED`, say) stays the number it is."""

@@ -53,18 +53,18 @@ def configuration(
         (
             dcon.SetChannelTypeCode(0x01, 0, 0x30),
             M_7019R,
-            "type_code cannot be '30': 00 01 02 .*: M-7019R, manual 2.15",
+            "type_code cannot be '30': MV_15 MV_50 .*: M-7019R, manual 2.15",
         ),
         (dcon.ReadChannelTypeCode(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelZero(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelSpan(0x01, 8), M_7019R, "channel cannot be 8"),
-        (dcon.SetChannelMask(0x01, 0x100), I_7017, r"mask cannot be '100': bits 0\.\.7: I-7017"),
-        (dcon.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9"),
-        (dcon.Diagnostics(0x01, 0x100), M_7019R, "mask cannot be '100'"),
+        (dcon.SetChannelMask(0x01, 0x100), I_7017, r"I-7017 has no channel 8: 0\.\.7"),
+        (dcon.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"M-7019Z has no channel 10: 0\.\.9"),
+        (dcon.Diagnostics(0x01, 0x100), M_7019R, "M-7019R has no channel 8"),
         (dcon.SetCjcOffset(0x01, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.\+4096 counts"),
         (dcon.CjcOffset(0x01, -0x1001), M_7018, "offset cannot be -4097"),
         (dcon.SetSoftInitTimeout(0x01, 61), M_7019R, r"timeout cannot be 61: 0\.\.60 s"),
-        (configuration(type_code=0x00), I_7017, "type_code cannot be '00'"),
+        (configuration(type_code=0x00), I_7017, "type_code cannot be 'MV_15'"),
         (configuration(type_code=0xFF), I_7017, "type_code cannot be 'FF'"),
         (configuration(LineSettings(0x0B)), I_7017, r"baud_rate cannot be '0B': 03\.\.0A"),
         (
@@ -326,49 +326,6 @@ def test_codes_given_as_numbers_are_taken_like_their_members() -> None:
     given = configuration(LineSettings(6), ReportSettings(0))
 
     assert dcon.encode(configuration(), I_7017) == dcon.encode(given, I_7017)
-
-
-# --- unknown modules --------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("frame", "commands"),
-    [
-        (b"$01A\r", [dcon.ReadAnalogInputsHex, dcon.ReadCjcUpdate]),
-        (b"$010C0\r", [dcon.CalibrateCurrentChannelSpan, dcon.CalibrateChannelZero]),
-        (b"#0184\r", [dcon.ReadAnalogInputs, dcon.ReadAnalogInput]),
-        (b"#**\r", [dcon.SynchronizedSampling]),
-    ],
-)
-def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, commands: list[Any]) -> None:
-    assert commands == [type(command) for command in dcon.candidates(frame)]
-
-
-@pytest.mark.parametrize(
-    ("frame", "fault", "offset"),
-    [
-        (b"", Fault.LENGTH, 0),
-        (b"$01z\r", Fault.COMMAND, 3),
-        (b"$012B6", Fault.TERMINATOR, 6),
-        (b"!01\r", Fault.LEADING, 0),
-        (b"x" * 300, Fault.LENGTH, 256),
-        (b"$01A3\r", Fault.VALUE, 4),
-        (b"$017C0X30\r", Fault.CHARACTER, 6),
-    ],
-)
-def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
-    frame: bytes, fault: Fault, offset: int
-) -> None:
-    with pytest.raises(DecodeError) as caught:
-        dcon.candidates(frame)
-
-    assert (fault, offset) == (caught.value.fault, caught.value.offset)
-
-
-@pytest.mark.parametrize("frame", [b"", b"$012\r", b"!01\xff\r", b"!\r", b">zz\r"])
-def test_what_no_module_says_has_no_candidates(frame: bytes) -> None:
-    with pytest.raises(DecodeError):
-        dcon.response_candidates(frame)
 
 
 @pytest.mark.parametrize(

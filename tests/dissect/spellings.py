@@ -88,6 +88,7 @@ BYTES: Final[dict[str, Spelling]] = {
     "IEC 61131": _joined(", ", "16#%02X"),
     "slsnif": lambda wire: " ".join(f"{_shown(byte)}({byte:02x})" for byte in wire),
     "text in brackets": lambda wire: " ".join(f"0x{byte:02X}({_shown(byte) or '.'})" for byte in wire),
+    "the CRC apart": lambda wire: f"{wire[:-2].hex(' ')} CRC: {wire[-2:].hex(' ')}",
     "a length before": lambda wire: f"{len(wire)} {wire.hex(' ')}",
     "minimalmodbus": lambda wire: f"{wire.decode('latin-1')!r} ({wire.hex(' ').upper()})",
     "Portmon": lambda wire: f"IRP_MJ_WRITE\tVCP0\tSUCCESS\tLength {len(wire)}: {wire.hex(' ').upper()} \t",
@@ -103,8 +104,8 @@ COLUMNS: Final = frozenset({"hexdump", "xxd", "tshark", "a sniffer", "a length b
 """Spellings that take a whole line."""
 
 ENDS: Final = (
-    "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", "<0d>", "<0D>",
-    "<0x0D>", "{0D}", "[0D]",
+    "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", " <CR>", " (cr)",
+    "<0d>", "<0D>", "<0x0D>", "{0D}", "[0D]",
     "[0d][0a]", "^M", "^M^J", "#13", "&#13;", "%0D", r"\x0D", r"\x0d", r"\015", r"\0D", r"\u000d",
     "\u240d", "\u21b5",
 )  # fmt: skip

@@ -1,13 +1,14 @@
 """Frames read with groups of profiles, against reading them with each profile by itself."""
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import DataFormat, DecodeError, Firmware, Model, Profile, TypeCode, dcon
-from i7000.dissect import Known
+from i7000 import DataFormat, DecodeError, Fault, Firmware, Model, Profile, TypeCode, dcon
+from i7000.dissect import Known, meanings
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.message import Message
 from tests.vectors import dcon_vectors
@@ -137,3 +138,45 @@ def test_the_first_fault_is_that_of_the_factory_defaults() -> None:
     with pytest.raises(DecodeError) as expected:
         dcon.decode_response(b"!0105\r", dcon.ReadConfiguration(1), Profile(Model.I_7018))
     assert str(expected.value) == str(error.value)
+
+
+# --- unknown modules --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("frame", "commands"),
+    [
+        (b"$01A\r", [dcon.ReadAnalogInputsHex, dcon.ReadCjcUpdate]),
+        (b"$010C0\r", [dcon.CalibrateCurrentChannelSpan, dcon.CalibrateChannelZero]),
+        (b"#0184\r", [dcon.ReadAnalogInputs, dcon.ReadAnalogInput]),
+        (b"#**\r", [dcon.SynchronizedSampling]),
+    ],
+)
+def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, commands: list[Any]) -> None:
+    assert commands == [type(meaning.message) for meaning in meanings(frame)]
+
+
+@pytest.mark.parametrize(
+    ("frame", "fault", "offset"),
+    [
+        (b"", Fault.LENGTH, 0),
+        (b"$01z\r", Fault.COMMAND, 3),
+        (b"$012B6", Fault.TERMINATOR, 6),
+        (b"x" * 300, Fault.LENGTH, 256),
+        (b"$01A3\r", Fault.VALUE, 4),
+        (b"$017C0X30\r", Fault.CHARACTER, 6),
+    ],
+)
+def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
+    frame: bytes, fault: Fault, offset: int
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        meanings(frame)
+
+    assert (fault, offset) == (caught.value.fault, caught.value.offset)
+
+
+@pytest.mark.parametrize("frame", [b"", b"!01\xff\r", b"!\r", b">zz\r"])
+def test_what_no_module_says_means_nothing(frame: bytes) -> None:
+    with pytest.raises(DecodeError):
+        meanings(frame)

@@ -52,6 +52,9 @@ FRAMES: dict[str, tuple[list[str], list[bytes]]] = {
     "a manual, a broadcast": (["Command: #**   No response "], [b"#**\r"]),
     "another manual": (["Command : $033 Receive : >+0025.4"], [b"$033\r", b">+0025.4\r"]),
     "an equals sign between": (["$012 = !010F0600"], [b"$012\r", b"!010F0600\r"]),
+    "no blanks between": (["$012;!010F0600", "TX=$022&RX=!020F0600"], [
+        b"$012\r", b"!010F0600\r", b"$022\r", b"!020F0600\r",
+    ]),
     "a sniffer with columns": (
         ["24 30 31 32 0d    $012.", "21 30 31 30 46 30 36 30 30 0d    !010F0600."], [b"$012\r", b"!010F0600\r"],
     ),

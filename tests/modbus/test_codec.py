@@ -64,7 +64,7 @@ def frame(body: str) -> bytes:
         (modbus.ReadTypeCode(0x01, 8), M_7019R, r"channel cannot be 8: 0\.\.7: M-7019R, manual 3\.3\.5"),
         (modbus.ReadTypeCode(0x01, 1), M_7017, r"channel cannot be 1: 0\.\.0: M-7017"),
         (modbus.SetTypeCode(0x01, 1, TypeCode.V_10), M_7017, r"channel cannot be 1: 0\.\.0: M-7017, manual 3\.3\.6"),
-        (modbus.SetTypeCode(0x01, 0, TypeCode.K), M_7017, "type_code cannot be '0F': 08 09 0A .*: M-7017"),
+        (modbus.SetTypeCode(0x01, 0, TypeCode.K), M_7017, "type_code cannot be 'K': V_10 V_5 V_1_0A .*: M-7017"),
         (modbus.SetTypeCode(0x01, 0, 0x30), M_7019R, "type_code cannot be '30'"),
         (modbus.SetMiscellaneousSettings(0x01, 0x20), M_7018, "settings cannot be '20': bits of 80: M-7018"),
         (
@@ -76,8 +76,8 @@ def frame(body: str) -> bytes:
         (modbus.SetCjcOffset(0x01, 0x88, 0), M_7018, r"channel cannot be '88': 00, 80\.\.87: M-7018, manual 3\.3\.13"),
         (modbus.SetCjcOffset(0x01, 0x00, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.\+4096"),
         (modbus.SetCjcOffset(0x01, 0x80, -1), M_7018, r"offset cannot be -1: 0\.\.255"),
-        (modbus.SetChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9: M-7019Z"),
-        (modbus.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"mask cannot be '400': bits 0\.\.9: M-7019Z"),
+        (modbus.SetChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"M-7019Z has no channel 10: 0\.\.9"),
+        (modbus.ChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"M-7019Z has no channel 10: 0\.\.9"),
         (
             modbus.WriteMultipleRegisters(0x01, 256, (8,) * 12),
             M_7019R,

@@ -11,6 +11,7 @@ from typing import Any
 from i7000 import EncodeError, LineSettings, TypeCode, modbus
 from i7000.cli.numbers import hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
+from i7000.cli.refusals import as_written
 from i7000.cli.units import Scale, counts
 from i7000.cli.words import UsageError, member, near, truth, type_code
 from i7000.message import Message
@@ -170,8 +171,7 @@ def _items(kind: type[Message], address: int, text: str, registers: RegisterMap)
     try:
         request: Any = registers.write(1, number, value)
     except EncodeError as refusal:
-        reason = f"{row.name} cannot be {text}"
-        raise EncodeError(row.name, text, refusal.allowed, refusal.section, reason) from None
+        raise as_written(refusal, row.name, text) from None
     return request.values if isinstance(request, modbus.WriteMultipleRegisters) else (request.value,)
 
 

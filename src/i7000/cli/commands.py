@@ -53,7 +53,7 @@ def commands(
     settings), `minimum`, `maximum`, `unit`, `scale`, `meaning`), `pause` (as in spec), `broadcast`, `exceptions`,
     `examples` and `refused` (vectors of spec), `errata_explained`.
     """
-    known = Module(model=model, firmware=firmware).known()
+    known = Module(model=() if model is None else (model,), firmware=firmware).known()
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
     kinds = _KINDS[protocol] if name or protocol != "auto" else dcon.COMMANDS
     chosen = commands_named(name, kinds) if name else kinds

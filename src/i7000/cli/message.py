@@ -16,6 +16,7 @@ from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings
 from i7000.cli.by_register import held, is_of_registers
 from i7000.cli.numbers import hex_byte, integer
 from i7000.cli.records import parts_of
+from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
 from i7000.cli.words import UsageError, baud_rate, member, near, truth, type_code
 from i7000.dissect import Known
@@ -92,13 +93,12 @@ def refusal_words(refusal: EncodeError, kind: type[Message], assignments: Sequen
     'timeout cannot be 30s: 00..FF, counts of 0.1 s, manual 2.39'
     """
     written = dict(assignment.split("=", 1) for assignment in assignments)
-    field, allowed = refusal.field, refusal.allowed
-    if refusal.reason or field not in written:
+    field = refusal.field
+    if field not in written:
         return str(refusal)
     scale = scale_of(kind, field, channel=written.get("channel", "0") != "0")
-    if scale and "counts" not in allowed:
-        allowed += f", counts of {1 / scale.per_unit:g} {scale.unit}"
-    return str(EncodeError(field, refusal.value, allowed, refusal.section, f"{field} cannot be {written[field]}"))
+    counts = f", counts of {1 / scale.per_unit:g} {scale.unit}" if scale and "counts" not in refusal.allowed else ""
+    return str(as_written(refusal, field, written[field], counts))
 
 
 def frame_text(message: Message, frame: bytes) -> str:

@@ -1,26 +1,35 @@
 """What several commands take: options of a module, of output, of protocols."""
 
+import re
 from typing import Annotated, Literal
 
-from attrs import frozen
+from attrs import evolve, fields, frozen
 from cyclopts import Parameter
 
 from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Protocol
+from i7000.cli.module import Described, read_module
+from i7000.cli.numbers import integer
 from i7000.cli.words import UsageError, type_codes
-from i7000.dissect import Known
+from i7000.dissect import Knowledge, Known
 
-__all__ = ["UNKNOWN", "Json", "Module", "ProtocolName"]
+__all__ = ["PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="DCON, or Modbus RTU.")]
+PROTOCOLS: dict[str, Protocol | None] = {"auto": None, "dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+"""The names of the protocols at the terminal."""
+
+_ADDRESSED = re.compile(r"([^=@,]*)=(.*)")
+_LAST_ADDRESS = 0xFF
 
 
 @Parameter(name="*")
 @frozen
 class Module:
-    """What is known about the module; what is not given is not known."""
+    """What is known about the module; the rest is unknown."""
 
-    model: str | None = None
-    """Its printed name: I-7018R."""
+    model: Annotated[tuple[str, ...], Parameter(negative="", show_default=False)] = ()
+    """Its printed name, I-7018R, or as for `simulate`: M-7019R@B3.7,type=K. With its address before it, 1=M-7019R, once
+    for each of several modules."""
     firmware: str | None = None
     """Its firmware: B3.9; the newest if it is not given."""
     types: Annotated[str | None, Parameter(name="--type")] = None
@@ -35,17 +44,51 @@ class Module:
     """How its analog registers are written."""
 
     def known(self, protocol: str = "dcon") -> Known:
-        """Return the options as values.
+        """Return what is known of the one module that is described.
 
         Errors: `UsageError`.
         """
+        by_address = self._read(protocol)
+        others = by_address.pop(None, None)
+        if by_address:
+            raise UsageError("give one --model, without an address")
+        return self._options(protocol) if others is None else others
+
+    def knowledge(self, protocol: str) -> Knowledge:
+        """Return what is known of all modules.
+
+        Errors: `UsageError`.
+        """
+        by_address = self._read(protocol)
+        others = by_address.pop(None, None)
+        return Knowledge.given(
+            self._options(protocol) if others is None else others,
+            {address: known for address, known in by_address.items() if address is not None},
+        )
+
+    def _read(self, protocol: str) -> dict[int | None, Known]:
+        options = self._options(protocol)
+        found: dict[int | None, Known] = {}
+        for text in self.model:
+            address, described = _described(text)
+            if address in found:
+                raise UsageError(f"give the addresses of several modules: --model 1={self.model[0]} --model 2={text}")
+            missing = {
+                name: value
+                for name in (it.name for it in fields(Known))
+                if (value := getattr(options, name)) is not None and getattr(described, name) is None
+            }
+            found[address] = _checked(evolve(described, **missing), protocol)
+        return found
+
+    def _options(self, protocol: str) -> Known:
         if protocol == "rtu" and (self.data_format is not None or self.checksum is not None):
             raise UsageError("--format and --checksum are of DCON; the registers have --modbus-format")
         if protocol == "dcon" and self.modbus_format is not None:
             raise UsageError("--modbus-format is of --protocol rtu; DCON has --format")
         try:
             known = Known(
-                None if self.model is None else Model.find(self.model),
+                None,
                 None if self.firmware is None else Firmware(self.firmware),
                 None if self.types is None else type_codes(self.types),
                 self.data_format,
@@ -53,12 +96,55 @@ class Module:
                 self.single_ended,
                 self.modbus_format,
             )
-            if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
-                raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
-            _ = known.default, known.all, protocol == "rtu" and known.modbus
         except EncodeError as error:
             raise UsageError(error) from None
-        return known
+        return known if self.model else _checked(known, protocol)
+
+
+def _checked(known: Known, protocol: str) -> Known:
+    """Refuse what no module is."""
+    if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
+        raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
+    try:
+        _ = known.default, known.all, protocol == "rtu" and known.modbus
+    except EncodeError as error:
+        raise UsageError(error) from None
+    return known
+
+
+def _described(text: str) -> tuple[int | None, Known]:
+    """Read ``[ADDRESS=]MODEL[@FIRMWARE][,name=value...]``."""
+    addressed = _ADDRESSED.fullmatch(text)
+    address = None
+    if addressed:
+        address = integer(addressed[1])
+        if not 0 <= address <= _LAST_ADDRESS:
+            raise UsageError(f"{text!r}: an address is 0..255 or 00h..FFh")
+        text = addressed[2]
+    if "@" not in text and "," not in text:
+        try:
+            return address, Known(Model.find(text))
+        except EncodeError as error:
+            raise UsageError(error) from None
+    described = read_module(text, 1 if address is None else address)
+    if address is None and "address" in described.given:
+        address = described.eeprom.address
+    return address, _known(described)
+
+
+def _known(described: Described) -> Known:
+    """Return what a description says that decides how frames are read."""
+    eeprom, given = described.eeprom, described.given
+    types = eeprom.type_codes[: eeprom.model.single_ended_channels if eeprom.single_ended else eeprom.model.channels]
+    return Known(
+        eeprom.model,
+        eeprom.firmware if "firmware" in given else None,
+        (types[:1] if len(set(types)) == 1 else types) if "type" in given else None,
+        eeprom.report_settings.data_format if "format" in given else None,  # type: ignore[arg-type] # it is defined
+        eeprom.report_settings.checksum if "checksum" in given else None,
+        eeprom.single_ended if "single_ended" in given else None,
+        eeprom.modbus_data_format if "modbus_format" in given else None,
+    )
 
 
 UNKNOWN = Module()

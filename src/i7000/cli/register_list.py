@@ -34,7 +34,7 @@ def registers(
     a count), `minimum`, `maximum` (in counts). One that is explained also has `meaning`, `values`, `cleared_by` (what
     can be written, where nothing else can), `functions`, `models`, `sections`, `errata`, `errata_explained`.
     """
-    known = Module(model=model, firmware=firmware).known("rtu")
+    known = Module(model=() if model is None else (model,), firmware=firmware).known("rtu")
     if name is None and known.model is None:
         raise UsageError("give --model to list its registers, or a register to be explained: i7000 registers 40489")
     profiles = {profile.model: profile for profile in reversed(known.modbus)}

@@ -16,8 +16,9 @@ from typing import IO, Any, cast
 
 from attrs import fields_dict, frozen
 
+from i7000.cli.module import read_module
 from i7000.cli.outlet import Outlet, missed_words
-from i7000.cli.simulated import read_module, read_signals
+from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
 from i7000.cli.traffic import lines
 from i7000.cli.view import View
@@ -85,8 +86,8 @@ def read_modules(
     Errors: `UsageError`, also for a file that is damaged; `OSError`.
     """
     described = [read_module(text, address) for address, text in enumerate(texts, 1)]
-    eeproms = tuple(eeprom for eeprom, _ in described)
-    switches = tuple(switch for _, switch in described)
+    eeproms = tuple(it.eeprom for it in described)
+    switches = tuple(it.init_switch for it in described)
     if memory is not None and memory.exists():
         from i7000.simulator.memory import load  # noqa: PLC0415
 

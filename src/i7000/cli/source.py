@@ -5,11 +5,14 @@ Laws: no byte is lost, and what is kept is less than a line and a chunk, however
 
 import os
 import stat
+from codecs import IncrementalDecoder
 from collections.abc import Callable, Iterator
 from io import BufferedIOBase
 from select import select
 
-__all__ = ["LONGEST_LINE", "Counted", "Lines"]
+from i7000.dissect.encoding import decoder_for, encoding_of
+
+__all__ = ["LONGEST_LINE", "Counted", "Lines", "chunks", "is_live", "is_readable"]
 
 LONGEST_LINE = 1 << 16
 """Bytes of a line beyond which it is read in pieces: a file without line ends is one line."""
@@ -50,7 +53,8 @@ class Lines:
         """Read `stream`; `wait` is called each time before reading, which may take long."""
         self._stream = stream
         self._wait = wait
-        self._live = _is_live(stream)
+        self._live = is_live(stream)
+        self._decoder: IncrementalDecoder | None = None
         self.long = Counted()
         """The lines that were read in pieces."""
 
@@ -59,7 +63,8 @@ class Lines:
         number = 1
         rest = b""
         last = b""
-        while chunk := self._more():
+        chunk = self._more(first=True)
+        while chunk:
             if last.endswith(b"\r"):
                 chunk = chunk.removeprefix(b"\n")  # of a line that was yielded without it
             lines = (rest + chunk).splitlines(keepends=True)
@@ -72,12 +77,23 @@ class Lines:
                 self.long.add(number)
                 yield number, rest[:LONGEST_LINE]
                 rest = rest[LONGEST_LINE:]
+            chunk = self._more()
         if rest:
             yield from self._pieces(number, rest)
 
-    def _more(self) -> bytes:
-        self._wait()
-        return self._stream.read1(_CHUNK)
+    def _more(self, *, first: bool = False) -> bytes:
+        """Return the next bytes, in UTF-8 whatever the encoding of the stream is."""
+        while True:
+            self._wait()
+            chunk = self._stream.read1(_CHUNK)
+            if first and encoding_of(chunk) != "utf-8":
+                self._decoder = decoder_for(chunk)
+            first = False
+            if self._decoder is None or not chunk:
+                return chunk
+            text = self._decoder.decode(chunk)
+            if text:
+                return text.encode("utf-8", "surrogatepass")
 
     def _pieces(self, number: int, line: bytes) -> Iterator[tuple[int, bytes]]:
         if len(line) > LONGEST_LINE:
@@ -89,20 +105,34 @@ class Lines:
         """Whether the last line of a chunk is; a CR may be the first half of a CR LF."""
         if line.endswith(b"\r") and self._live:
             self._wait()
-            return not _is_readable(self._stream.fileno())
+            return not is_readable(self._stream)
         return line.endswith(b"\n")
 
 
-def _is_live(stream: BufferedIOBase) -> bool:
-    """Whether more can come later: not in a file, and not in memory."""
+def is_live(stream: BufferedIOBase) -> bool:
+    """Return whether more can come later: not in a file, and not in memory."""
     try:
         return not stat.S_ISREG(os.fstat(stream.fileno()).st_mode)
     except OSError:
         return False
 
 
-def _is_readable(file: int) -> bool:
+def is_readable(stream: BufferedIOBase) -> bool:
+    """Return whether more comes within 20 ms."""
     try:
-        return bool(select([file], [], [], _GRACE)[0])
+        return bool(select([stream.fileno()], [], [], _GRACE)[0])
     except (OSError, ValueError):  # Windows knows that of sockets only
         return False
+
+
+def chunks(stream: BufferedIOBase, wait: Callable[[], None]) -> Iterator[bytes]:
+    """Yield the bytes of a stream as they arrive, and nothing where no more came for 20 ms; `wait` as for `Lines`."""
+    live = is_live(stream)
+    while True:
+        wait()
+        chunk = stream.read1(_CHUNK)
+        if not chunk:
+            return
+        yield chunk
+        if live and not is_readable(stream):
+            yield b""

@@ -20,7 +20,6 @@ from i7000.dcon import (
     watchdog,
 )
 from i7000.dcon.calibration import *
-from i7000.dcon.candidates import candidates, response_candidates
 from i7000.dcon.codec import *
 from i7000.dcon.cold_junction import *
 from i7000.dcon.command import *
@@ -33,7 +32,7 @@ from i7000.dcon.reports import *
 from i7000.dcon.sampling import *
 from i7000.dcon.watchdog import *
 
-__all__ = ["candidates", "response_candidates"]
+__all__: list[str] = []
 __all__ += calibration.__all__
 __all__ += codec.__all__
 __all__ += cold_junction.__all__

@@ -30,9 +30,7 @@ def decode(t, p):
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
-
-from attrs import fields
+from typing import Annotated, Any, get_origin
 
 from i7000.compiled import check_names, check_source, compiled
 from i7000.dcon.parts import DIGITS, Part
@@ -66,7 +64,7 @@ class Layout:
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
         """Compile the syntax of a message class."""
-        pieces = tuple(_pieces(message))
+        pieces = tuple(pieces_of(message))
         parts = {name: part for name, part in pieces if isinstance(part, Part)}
         source = "\n".join((*check_source(parts), "", *_encoder(pieces), "", *_decoder(pieces)))
         names: dict[str, Any] = {"message": message, "new": object.__new__, **check_names(parts, message.section)}
@@ -145,17 +143,24 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
     return None
 
 
-def _pieces(message: Any) -> Iterator[tuple[str, str | Part]]:  # noqa: ANN401
+def _fields(message: Any) -> Iterator[tuple[str, Part]]:  # noqa: ANN401
+    """Read the annotations of a class and its bases; attrs has not made the class yet, perhaps, and takes long to."""
+    for base in reversed(message.__mro__):
+        for name, annotation in vars(base).get("__annotations__", {}).items():
+            if get_origin(annotation) is Annotated:
+                yield name, annotation.__metadata__[0]
+
+
+def pieces_of(message: Any) -> Iterator[tuple[str, str | Part]]:  # noqa: ANN401
     """Find the notation of each field in the syntax, from the left, and the literals between."""
     rest: str = message.syntax
-    for attribute in fields(message):
-        part: Part = attribute.type.__metadata__[0]
+    for name, part in _fields(message):
         literal, found, rest = rest.partition(part.notation)
         if not found:
             raise TypeError(f"{message.__name__}: {message.syntax!r} has no {part.notation!r}")
         if literal:
             yield "", literal
-        yield attribute.name, part
+        yield name, part
     if rest:
         yield "", rest
 

@@ -236,8 +236,8 @@ def _value(notation: str) -> Part:
 
 
 # The types of fields, by the notation of the manual.
-Address = Annotated[int, byte("AA")]
-NewAddress = Annotated[int, byte("NN")]
+Address = Annotated[int, byte("AA", describe.address)]
+NewAddress = Annotated[int, byte("NN", describe.address)]
 NewTypeCode = Annotated[TypeCode | int, _type_code("TT")]
 ChannelTypeCode = Annotated[TypeCode | int, _type_code("rr")]
 Line = Annotated[LineSettings, _settings("CC", LineSettings, describe.line_settings)]

@@ -95,7 +95,7 @@ class Bus:
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.modules, tuple) or not {State}.issuperset(map(type, self.modules)):
-            raise EncodeError("modules", self.modules, "a tuple of State", "2")
+            raise EncodeError("modules", self.modules, "a tuple of State", "")
         check_seconds("clock", self.clock)
 
     def step(self, frame: bytes, signals: Sequence[Signals], now: float) -> tuple["Bus", bytes | None]:
@@ -129,7 +129,7 @@ class Bus:
         for own in signals:
             check_type("signals", own, Signals)
         if len(signals) != len(self.modules):
-            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "2")
+            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "")
         return signals
 
     def hear(

@@ -6,6 +6,7 @@ mean, with what is `Known` of each module by then.
 It does no I/O: your program reads the file or the port, and hands over lines or bytes.
 """
 
+from i7000.dissect.dcon import meanings
 from i7000.dissect.finder import find
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.heard import Direction, Heard, Line, Place
@@ -36,5 +37,6 @@ __all__ = [
     "flush",
     "hear",
     "hear_frame",
+    "meanings",
     "pieces",
 ]

@@ -16,13 +16,16 @@ from typing import Any, NamedTuple
 from attrs import evolve
 
 from i7000 import DataFormat, DecodeError, Fault, Profile, Status, TypeCode, dcon
+from i7000.arguments import as_bytes
 from i7000.availability import Availability
+from i7000.dcon.codec import deepest
 from i7000.dissect.known import Fact, Known, Origin
 from i7000.dissect.meaning import ChannelReading, Fit, Meaning
 from i7000.readings import decode_field
 
-__all__ = ["DconReader", "is_command"]
+__all__ = ["DconReader", "is_command", "meanings", "reader"]
 
+_NOTHING_KNOWN = Known()
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
 _REMEMBERED = 256
@@ -103,7 +106,7 @@ class DconReader:
                 return self._meanings(read)
         if misfits:
             return self._meanings(misfits)
-        raise faults[0]
+        raise faults[0] if self._known.model else _nearest(faults)
 
     def _meanings(self, read: list[_Read]) -> tuple[Meaning, ...]:
         if len(read) == 1:  # nearly always, if the model is known
@@ -178,6 +181,31 @@ class DconReader:
                     attempts += _with_new_checksum(command, groups_of_it)
             stages.append(_in_turn(attempts))
         return tuple(stages) if any(stages) else self._alone
+
+
+def _nearest(faults: list[DecodeError]) -> DecodeError:
+    """Return the fault that is farthest in the frame; a wrong checksum only if there is no other fault."""
+    return deepest([fault for fault in faults if fault.fault is not Fault.CHECKSUM] or faults)
+
+
+reader = lru_cache(maxsize=64)(DconReader)
+"""The reader of modules of which this much is known."""
+
+
+def meanings(frame: bytes, asked: bytes | None = None, known: Known = _NOTHING_KNOWN) -> tuple[Meaning, ...]:
+    r"""Return everything that a DCON frame can mean, by section; as the response to `asked`, if that is given.
+
+    Shape: frames with and without checksum, and all data formats, are considered, unless they are known.
+    Errors: `DecodeError` if it means nothing.
+    Manual: 2; E7, E8, E93.
+
+    >>> [meaning.message for meaning in meanings(b"#0184\r")]
+    [ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132)]
+    """
+    frame = as_bytes("frame", frame)
+    if not frame:
+        raise DecodeError(Fault.LENGTH, frame, allowed="a frame")
+    return reader(known).meanings(frame, None if asked is None else as_bytes("asked", asked))
 
 
 def is_command(frame: bytes) -> bool:

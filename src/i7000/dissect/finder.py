@@ -18,7 +18,15 @@ from i7000.dissect.in_bytes import SHORTEST_RUN, good_in_run, in_run
 from i7000.dissect.in_text import in_text
 from i7000.dissect.patterns import pattern
 from i7000.dissect.plain import find_plain
-from i7000.dissect.spelling import Run, decimal_runs, hex_runs, literal_runs, loose_hex_runs, wire_of, without_numbers
+from i7000.dissect.spelling import (
+    Run,
+    decimal_runs,
+    hex_runs,
+    literal_runs,
+    loose_hex_runs,
+    wire_of,
+    without_numbers,
+)
 
 __all__ = ["Line", "find", "read_line", "without_end"]
 
@@ -72,7 +80,7 @@ def read_line(text: str) -> Line:
     """
     if not _SIGNS.search(text):
         return _NOTHING
-    left_over = _LEFT_OVER.search(text)
+    left_over = _LEFT_OVER.search(text) if "data:" in text else None
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
@@ -90,9 +98,13 @@ def read_line(text: str) -> Line:
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
     if not good:
         crossed = _without_hex(crossed, runs)
+        known = set(wires)
         for numbers in (loose_hex_runs, decimal_runs):
-            good += [found for run in numbers(crossed) if wire_of(run) not in wires for found in good_in_run(run)]
+            fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
+            good += [found for run in fresh for found in good_in_run(text, run)]
     part = b"" if good else max(wires, key=len, default=b"")
+    if not good and not damaged:
+        return Line((), part)
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):
@@ -154,7 +166,7 @@ def _in_strings(text: str) -> Iterator[Found]:
     """Find frames in strings with escapes, and those that are written as text."""
     for run, usual in literal_runs(text):
         if not _is_text(wire_of(run)):
-            yield from in_run(text, run) if usual else good_in_run(run)
+            yield from in_run(text, run) if usual else good_in_run(text, run)
     yield from in_text(text)
 
 

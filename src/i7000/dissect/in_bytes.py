@@ -9,7 +9,7 @@ from i7000 import dcon, modbus
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped
-from i7000.dissect.spelling import Run, wire_of
+from i7000.dissect.spelling import Byte, Run, wire_of
 from i7000.errors import Noise
 
 __all__ = ["SHORTEST_RUN", "frames_of", "good_in_run", "in_run"]
@@ -69,11 +69,13 @@ def _spans(kind: Kind, pieces: tuple[bytes | Noise, ...]) -> list[Span]:
     return spans
 
 
-def good_in_run(run: Run) -> Iterator[Found]:
-    """Find the good frames in a run."""
+def good_in_run(text: str, run: Run) -> Iterator[Found]:
+    """Find the good frames in a run whose bytes have all the same between them, but for blanks."""
     if len(run) >= SHORTEST_RUN:
         for kind, start, end in frames_of(wire_of(run)):
-            yield _found(kind, run, start, end)
+            gaps = {"".join(text[run[at].end : run[at + 1].start].split()) for at in range(start, end - 1)}
+            if len(gaps) == 1:
+                yield _found(kind, run, start, end)
 
 
 def in_run(text: str, run: Run) -> Iterator[Found]:
@@ -127,13 +129,18 @@ def _styles(text: str, run: Run) -> list[_Style]:
     """Of every byte but the first, how it is set off."""
     decorations = [""] * len(run)
     if _DECORATION.search(text, max(0, run[0].start - 1), run[-1].end):
-        marks = [_DECORATION.search(text, max(0, byte.start - 1), byte.end) for byte in run]
-        decorations = [mark[0] if mark else "" for mark in marks]
+        decorations = [_decoration(text, byte) for byte in run]
     return [
         _Style("".join(gap.split()) or gap[:1], max(before.word, byte.word), other.lower() if one == other else "")
         for before, byte, one, other in zip(run, run[1:], decorations, decorations[1:], strict=False)
         for gap in [text[before.end : byte.start]]
     ]
+
+
+def _decoration(text: str, byte: Byte) -> str:
+    """What marks a byte as hex: a part of its word, or else the character before it."""
+    mark = _DECORATION.search(text, byte.start, byte.end) or _DECORATION.match(text, max(0, byte.start - 1))
+    return mark[0] if mark else ""
 
 
 def _left(

@@ -15,7 +15,7 @@ _MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
 _UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
 _WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
-_CUT = pattern(r"[\"'`<,;|)\]}]|[-=]+>")
+_CUT = pattern(r"[\"'`<,;|&)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
 _ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
 _NUMBERED = pattern(r">[+-]\d")
@@ -43,27 +43,29 @@ def in_text(text: str) -> Iterator[Found]:
 
 def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
     """Where the frame that starts here ends, and what it is; None if there is none."""
-    written = _UP_TO_END.match(characters, start)
     if characters[start] == ">":
         found = report().match(characters, start)
         if found:
             return Kind.DCON, found.end()
-        if not _NUMBERED.match(characters, start):
-            return None, start
-    if written and is_shaped(written[0]):
-        return Kind.DCON, written.end()
-    if not written and start and characters[start - 1].isalnum():
+    if not (_NUMBERED if characters[start] == ">" else _ADDRESSED).match(characters, start):
         return None, start
+    written = _UP_TO_END.match(characters, start)
+    if written is None and start and characters[start - 1].isalnum():
+        return None, start
+    ends = list(_ends(characters, start, None if written is None else written.end()))
+    shaped = (end for end in ends if is_shaped(characters[start:end]))
+    end = next(shaped, None)
+    return (Kind.DAMAGED, ends[0]) if end is None else (Kind.DCON, end)
+
+
+def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:
+    """Where a frame can end: at its carriage return, or before what closes a word; and where a word can be cut."""
     word = _WORD.match(characters, start)
     longest = word.end() if word else start + 1
-    shortest = start + len(characters[start:longest].rstrip(_CLOSING))
+    if written is None:
+        yield from range(start + len(characters[start:longest].rstrip(_CLOSING)), longest + 1)
+    else:
+        yield written
     cut = _CUT.search(characters, start, longest)
-    ends = () if written else range(shortest, longest + 1)
-    for end in (*ends, *([cut.start()] if cut else [])):
-        if is_shaped(characters[start:end]):
-            return Kind.DCON, end
-    return _kind_of_damage(characters, start), written.end() if written else shortest
-
-
-def _kind_of_damage(characters: str, start: int) -> Kind | None:
-    return Kind.DAMAGED if _ADDRESSED.match(characters, start) or _NUMBERED.match(characters, start) else None
+    if cut:
+        yield cut.start()

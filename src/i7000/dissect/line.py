@@ -20,30 +20,32 @@ from i7000.settings import Protocol
 __all__ = ["flush", "hear", "hear_frame"]
 
 
-def hear(line: Line, data: bytes) -> tuple[Line, tuple[Heard, ...]]:
+def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
     r"""Hear the next bytes of a stream, in any pieces; what can still become a frame is kept in `Line.rest`.
+
+    Shape: `where` the bytes stand, for notes on later frames, which count them unless it is given.
 
     >>> line, heard = hear(Line(protocol=Protocol.DCON), b"$012\r!01")
     >>> line, more = hear(line, b"0F0600\r")
     >>> [type(it.meanings[0].message).__name__ for it in (*heard, *more)]
     ['ReadConfiguration', 'Configuration']
     """
-    return _hear_split(line, line.rest + as_bytes("data", data), last=False)
+    return _hear_split(line, line.rest + as_bytes("data", data), where, last=False)
 
 
-def flush(line: Line) -> tuple[Line, tuple[Heard, ...]]:
+def flush(line: Line, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
     """Hear that nothing more comes for now: what is in `Line.rest` is a frame, or none."""
-    return _hear_split(line, line.rest, last=True)
+    return _hear_split(line, line.rest, where, last=True)
 
 
-def _hear_split(line: Line, data: bytes, *, last: bool) -> tuple[Line, tuple[Heard, ...]]:
+def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tuple[Line, tuple[Heard, ...]]:
     spans, rest = split(data, line.protocol, last=last)
     found = []
     for protocol, wire, fault in spans:
         if fault is None:
-            line, heard = hear_frame(line, wire, protocol)
+            line, heard = hear_frame(line, wire, protocol, _next(line, where))
         else:
-            place = _next(line)
+            place = _next(line, where)
             line = evolve(line, count=place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
@@ -68,5 +70,5 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place)
 
 
-def _next(line: Line) -> Place:
-    return Place(line.count + 1, f"frame {line.count + 1}")
+def _next(line: Line, where: str | None = None) -> Place:
+    return Place(line.count + 1, where or f"frame {line.count + 1}")

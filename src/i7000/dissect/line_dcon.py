@@ -9,6 +9,7 @@ from attrs import evolve
 from i7000 import describe
 from i7000.dissect.causes import dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
+from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
 from i7000.dissect.known import Fact, Known, Module, fact_words
 from i7000.dissect.learn import learn, with_facts
@@ -20,8 +21,6 @@ from i7000.type_codes import MIXED
 
 __all__ = ["hear_dcon"]
 
-_READERS = 64
-"""Combinations of what is known of a module, of which the readers are kept."""
 _REMEMBERED = 512
 """Exchanges that are not read again when they come again: a host that polls hears the same again and again."""
 
@@ -108,9 +107,6 @@ class _Read(NamedTuple):
         return any(meaning.command for meaning in self.meanings)
 
 
-_dcon_reader = lru_cache(maxsize=_READERS)(DconReader)
-
-
 def _dcon_address(wire: bytes) -> int | None:
     """Return the address of a frame that has one; None for those to all modules, and for reports."""
     digits = wire[1:3]
@@ -124,7 +120,7 @@ def _read_dcon(module: Module, wire: bytes, asked: bytes | None) -> _Read:
     try:
         meanings, dropped = _dcon_meanings(module, wire, asked)
     except DecodeError as error:
-        reader = _dcon_reader(module.known)
+        reader = reader_of(module.known)
         candidates = () if asked is None else _alone(reader, wire)
         causes = tuple(dcon_causes(wire, reader, module.known, asked))
         return _Read(error=error.with_traceback(None), candidates=candidates, notes=causes)
@@ -147,7 +143,7 @@ def _dcon_meanings(module: Module, wire: bytes, asked: bytes | None) -> tuple[tu
     found: tuple[Meaning, ...] = ()
     fault: DecodeError | None = None
     try:
-        found = _dcon_reader(module.known).meanings(wire, asked)
+        found = reader_of(module.known).meanings(wire, asked)
     except DecodeError as error:
         fault = error
     if found and not found[0].misfit:
@@ -156,7 +152,7 @@ def _dcon_meanings(module: Module, wire: bytes, asked: bytes | None) -> tuple[tu
     for facts in (*((fact,) for fact in learned), learned if len(learned) > 1 else ()):
         known = module.without(fact.name for fact in facts).known
         try:
-            others = _dcon_reader(known).meanings(wire, asked) if facts else ()
+            others = reader_of(known).meanings(wire, asked) if facts else ()
         except DecodeError:
             continue
         if others and not others[0].misfit:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 from i7000 import dcon
+from i7000.dcon.layout import pieces_of
 from i7000.dcon.parts import Part
 
 __all__ = ["is_shaped", "plain_shapes", "report"]
@@ -26,7 +27,7 @@ _CHECKSUM = r"(?:[0-9A-F]{2})?"
 
 def _pattern(kind: type[dcon.Message]) -> str:
     """Write the syntax of a message as a regular expression."""
-    return "".join(_piece(name, piece) for name, piece in kind.layout.pieces)
+    return "".join(_piece(name, piece) for name, piece in pieces_of(kind))
 
 
 def _piece(name: str, piece: str | Part) -> str:

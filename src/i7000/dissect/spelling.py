@@ -44,20 +44,29 @@ def wire_of(run: Run) -> bytes:
     return bytes([byte[0] for byte in run])
 
 
-_DATE = r"\d{4}([-/.])\d\d?\1\d\d?|\d\d?([/.])\d\d?\2\d{2,4}"
-_TIME = r"\d\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
+_DATE = r"\d{3}([-/.])\d\d?\1\d\d?|\d?([/.])\d\d?\2\d{2,4}"
+_TIME = r"\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
 _UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
 _NUMBERS = pattern(
-    rf"(?<![\w:.\-/])(?:(?:{_DATE})(?:[T_ ]+{_TIME})?|{_TIME}|\d+\.\d+)(?!\w|[:.\-/]\w)"  # dates, times, 0.020000
-    rf"|(?<!\w)\d+(?=\s?(?:{_UNIT})\b)"
-    r"|^\s*(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})"  # the offset of a dump
-    r"|^\s*[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+    rf"\d(?:(?<![\w:.\-/].)(?:(?:{_DATE})(?:[T_ ]+\d{_TIME})?|{_TIME}|\d*\.\d+)(?!\w|[:.\-/]\w)"
+    rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
+    re.DOTALL,
 )
-"""What looks like bytes and is none."""
+"""Dates, times, decimal fractions, and numbers with a unit: what looks like bytes and is none.
+
+All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
+"""
+_OFFSET = pattern(
+    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$)))"
+)
+"""The offset at the start of a row of a dump."""
 
 
 def without_numbers(text: str) -> str:
     """Cross out dates, times and offsets by letters, so that no run goes through them."""
+    offset = _OFFSET.match(text)
+    if offset:
+        text = "z" * offset.end() + text[offset.end() :]
     return _NUMBERS.sub(lambda found: "z" * len(found[0]), text)
 
 
@@ -71,7 +80,7 @@ _HEX = pattern(
 """A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
 _LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
 _DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
-_BETWEEN = pattern(r"[\W_]{0,8}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
+_BETWEEN = pattern(r"[\W_]{0,8}|[\W_]{1,4}(?:CRC|crc)(?:16)?[\W_]{1,4}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
 """What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
 _IN_A_ROW = pattern(r"[0-9A-Fa-f][hH]?(?:[\W_]{1,8}(?:0[xX])?[0-9A-Fa-f]{1,3}[hH]?){3}")
@@ -193,11 +202,11 @@ def _character(one: re.Match[str], base: int) -> Byte:
 
 
 _BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
-"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13."""
+"""Where ``#13`` is a carriage return: elsewhere it is a command to module 13h."""
 _ENDS = rf"""
-    [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD] | \\015 | \\0D
-    | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5
-    | \$0D (?![0-9A-Za-z]) | \r
+    (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD]
+    | \\015 | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d
+    | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
 """
 _LINE_FEEDS = rf"""
     [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A

@@ -34,6 +34,10 @@ class Piece(NamedTuple):
     """The line before, if it has the same frame and a logger printed that twice; see `i7000.dissect.repeats`."""
 
 
+_new = tuple.__new__
+"""What a `Piece` is made with where most are made: its own ``__new__`` takes twice as long."""
+
+
 class _Part(NamedTuple):
     """A line that spells bytes which are no frame yet."""
 
@@ -52,15 +56,44 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
     """
-    first = Piece(0, 0, "", None, b"")
-    last = 0
-    for piece in _pieces(lines, protocol):
-        if piece.wire and piece.wire in first.wire and piece.number == last + 1 and _repeats(first, piece):
-            yield piece._replace(same_as=first.number)
+    marked = _Repeats().marked
+    parts: list[_Part] = []
+    for number, line in lines:
+        text = without_end(line) if line[-1:] == "\n" else line
+        plain = find_plain(text)
+        found: tuple[Found, ...] = ()
+        if plain is None:
+            found, part = read_line(text)
+            if part and (parts or _begins(part)):
+                parts.append(_Part(number, text, found, part))
+                yield from map(marked, _complete(parts, protocol))
+                continue
+        if parts:
+            yield from map(marked, _apart(parts, protocol))
+            parts = []
+        if plain is None:
+            yield from map(marked, _of_line(number, text, found, protocol))
         else:
-            yield piece
-            first = piece
-        last = piece.last
+            yield marked(_new(Piece, (number, number, text, plain[0], plain[1], None)))
+    yield from map(marked, _apart(parts, protocol))
+
+
+class _Repeats:
+    """The last frame that was on the wire, which a logger may print again."""
+
+    def __init__(self) -> None:
+        self._first = Piece(0, 0, "", None, b"")
+        self._last = 0
+
+    def marked(self, piece: Piece) -> Piece:
+        """Return the piece, marked if it is a repeat."""
+        number, last, _, _, wire, _ = piece
+        if wire in self._first[4] and wire and number == self._last + 1 and _repeats(self._first, piece):
+            piece = piece._replace(same_as=self._first.number)
+        else:
+            self._first = piece
+        self._last = last
+        return piece
 
 
 def _repeats(first: Piece, piece: Piece) -> bool:
@@ -69,33 +102,16 @@ def _repeats(first: Piece, piece: Piece) -> bool:
     return is_same and piece.text != first.text and is_repeat(first.text, piece.text)
 
 
-def _pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None) -> Iterator[Piece]:
-    parts: list[_Part] = []
-    for number, line in lines:
-        text = without_end(line) if line[-1:] == "\n" else line
-        plain = find_plain(text)
-        if plain is not None:
-            if parts:
-                yield from _apart(parts, protocol)
-                parts = []
-            yield Piece(number, number, text, plain[0], plain[1])
-            continue
-        found, part = read_line(text)
-        if not part or not (parts or _begins(part)):
-            yield from _apart(parts, protocol)
-            parts = []
-            yield from _of_line(number, text, found, protocol)
-            continue
-        parts.append(_Part(number, text, found, part))
-        while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
-            yield from _apart(parts[:1], protocol)
-            del parts[0]
-        whole = _whole(parts)
-        if whole is not None:
-            yield from _apart(parts[:whole], protocol)
-            yield from _joined(parts[whole:])
-            parts = []
-    yield from _apart(parts, protocol)
+def _complete(parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
+    """Take off the list what is a whole frame by now, and what is too long for one."""
+    while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
+        yield from _apart(parts[:1], protocol)
+        del parts[0]
+    whole = _whole(parts)
+    if whole is not None:
+        yield from _apart(parts[:whole], protocol)
+        yield from _joined(parts[whole:])
+        parts.clear()
 
 
 def _begins(wire: bytes) -> bool:

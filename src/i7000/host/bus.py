@@ -54,10 +54,10 @@ class Policy:
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.retries, int) or isinstance(self.retries, bool) or self.retries < 0:
-            raise EncodeError("retries", self.retries, "0 or more", "2")
+            raise EncodeError("retries", self.retries, "0 or more", "")
         for name, value in (("turnaround", self.turnaround), ("grace", self.grace)):
             if not is_number(value) or value < 0:
-                raise EncodeError(name, value, "seconds, 0 or more", "2")
+                raise EncodeError(name, value, "seconds, 0 or more", "")
 
 
 @frozen

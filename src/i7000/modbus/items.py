@@ -91,8 +91,8 @@ def _bits(most: int) -> Item:
 MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 123
 """What one frame may ask for or carry."""
 
-Address = Annotated[int, _number(0, 247)._replace(describe=describe.hex_byte)]
-NewAddress = Annotated[int, byte()]
+Address = Annotated[int, _number(0, 247)._replace(describe=describe.address)]
+NewAddress = Annotated[int, byte(describe.address)]
 Byte = Annotated[int, byte(describe.value)]
 Word = Annotated[int, _number(0, 0xFFFF)]
 Start = Annotated[int, _number(0, 0xFFFF)._replace(role="first")]

@@ -139,7 +139,7 @@ class RegisterMap:
         first, count, _ = self._span(row, key, channels)
         values = tuple(value) if isinstance(value, tuple | list) else (value,)
         if len(values) != count:
-            raise EncodeError(row.name, value, f"{count} value(s)", "3.4")
+            raise EncodeError(row.name, value, _amount(count, first), "")
         counts = [it for one in values for it in counts_of(row, one, self.profile, big_endian=big_endian)]
         start = row.address + first
         if row.area is Area.COIL:
@@ -209,6 +209,13 @@ class RegisterMap:
         if most == 1 or place:
             return (place[1] - row.address) // row.kind.width if place else 0, 1, True
         return 0, most if row.kind is Kind.RECORD else min(most, self.profile.channels), False
+
+
+def _amount(count: int, first: int) -> str:
+    """Return how many values are expected, and how to write fewer."""
+    if count == 1:
+        return "1 value"
+    return f"{count} values, one a channel; or channels=range({first}, {first + 1}) to write one"
 
 
 def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:

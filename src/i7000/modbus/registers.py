@@ -208,7 +208,7 @@ def _module(profile: Profile) -> Iterator[Register]:
     read_32 = partial(_holding, count=2, access=Access.READ, kind=Kind.UINT32, word_order=WordOrder.LOW_FIRST)
     yield read_32("firmware_version", 480, values=Firmware, words=describe.firmware)
     yield read_32("module_name", 482, values=str, words=describe.series)
-    yield _holding("module_address", 484, minimum=1, maximum=247, words=describe.hex_byte)
+    yield _holding("module_address", 484, minimum=1, maximum=247, words=describe.address)
     yield _holding(
         "line_settings", 485, kind=Kind.BITS, minimum=0x03, maximum=0xCA,
         values=LineSettings, words=describe.line_settings,

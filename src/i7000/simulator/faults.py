@@ -61,7 +61,7 @@ class Faults:
                 continue
             most = 60.0 if name == "late_by" else 1.0
             if not 0 <= value <= most:
-                raise EncodeError(name, value, f"0..{most:g}", "2")
+                raise EncodeError(name, value, f"0..{most:g}", "")
 
     def carried(self, data: bytes, chance: Random) -> tuple[bytes, tuple[str, ...]]:
         """Tell what becomes of bytes on their way, and what happened in words."""
