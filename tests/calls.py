@@ -262,10 +262,10 @@ LEFT_OUT = {
     "i7000.Reading": "a named tuple, made for every channel of every poll; whoever takes one checks it",
     **dict.fromkeys(
         (
-            "i7000.ArgumentError", "i7000.DecodeError", "i7000.EncodeError", "i7000.I7000Error", "i7000.StateError",
-            "i7000.Noise", "modbus.Plan", "modbus.Register", "modbus.LogRecord", "host.Answered", "host.Declined",
-            "host.Late", "host.Rejected", "host.Sent", "host.TimedOut", "host.Transmit", "device.Heard",
-            "device.Record",
+            "i7000.ArgumentError", "i7000.DecodeError", "i7000.EncodeError", "i7000.I7000Error",
+            "i7000.InvalidValueError", "i7000.StateError", "i7000.Noise", "modbus.Plan", "modbus.Register",
+            "modbus.LogRecord", "host.Answered", "host.Declined", "host.Late", "host.Rejected", "host.Sent",
+            "host.TimedOut", "host.Transmit", "device.Heard", "device.Record",
         ),
         _HANDED_OUT,
     ),

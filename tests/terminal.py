@@ -8,7 +8,8 @@ import pytest
 
 from i7000 import Protocol
 from i7000.cli import main
-from i7000.cli.decode import records
+from i7000.cli.readers import of_lines
+from i7000.cli.records import json_of
 from i7000.cli.words import UsageError
 from i7000.dissect import Knowledge, Known
 from tests.spec.lint import Record
@@ -43,7 +44,7 @@ def run(plain: None, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mon
     """Call the command line with arguments, and what stands on standard input."""
 
     def call(*arguments: str, stdin: bytes = b"") -> Told:
-        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin)))
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(io.BytesIO(stdin))))
         code = main(arguments)
         return Told(code, *capsys.readouterr())
 
@@ -52,7 +53,7 @@ def run(plain: None, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Mon
 
 def logged(*lines: str, known: Known = Known(), protocol: Protocol | None = None) -> list[Record]:  # noqa: B008 - frozen
     """The records of a log."""
-    return [record for record, _ in records(enumerate(lines, 1), Knowledge.given(known), protocol)]
+    return [json.loads(json_of(read)) for read in of_lines(enumerate(lines, 1), Knowledge.given(known), protocol)]
 
 
 def known_of(vector: Record) -> Known:

@@ -12,6 +12,7 @@ from i7000 import (
     DecodeError,
     EncodeError,
     I7000Error,
+    InvalidValueError,
     Model,
     Profile,
     Reading,
@@ -73,7 +74,7 @@ def test_an_argument_of_any_type_is_taken_or_refused_with_an_error_of_ours(call:
 def test_what_a_function_works_on_is_checked_by_its_type(call: Call) -> None:
     for argument, function in call.arguments():
         if isinstance(argument, CHECKED_BY_TYPE):
-            with pytest.raises(EncodeError if call.constructs else ArgumentError):
+            with pytest.raises(InvalidValueError if call.constructs else ArgumentError):
                 function(object())
 
 
@@ -208,7 +209,7 @@ def test_every_function_with_a_clock_is_tried() -> None:
 @each_clock
 @pytest.mark.parametrize("now", [float("nan"), float("inf"), float("-inf"), 10**400])
 def test_a_time_that_is_not_finite_is_refused(call: Callable[[float], Any], now: float) -> None:
-    with pytest.raises(EncodeError, match=r"now cannot be .*: a finite number of seconds"):
+    with pytest.raises(InvalidValueError, match=r"now cannot be .*: a finite number of seconds"):
         call(now)
 
 
@@ -227,7 +228,7 @@ def test_a_clock_that_goes_back_is_refused(call: Callable[[float], Any]) -> None
 
 @pytest.mark.parametrize("now", [float("nan"), float("inf"), 10**400])
 def test_no_module_gets_power_at_a_time_that_is_not_finite(now: float) -> None:
-    with pytest.raises(EncodeError, match=r"now cannot be .*: a finite number of seconds"):
+    with pytest.raises(InvalidValueError, match=r"now cannot be .*: a finite number of seconds"):
         device.power_on(device.factory(Model.I_7018), now=now)
 
 

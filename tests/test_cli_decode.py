@@ -278,7 +278,7 @@ def test_a_command_that_was_not_understood_has_no_response() -> None:
 def test_a_response_of_no_module_has_a_fault() -> None:
     (record,) = told("!0")
 
-    assert record["fault"] == "command"
+    assert record["fault"] == "length"
 
 
 def test_a_wrong_checksum_is_told_where_there_has_to_be_one() -> None:
@@ -350,7 +350,7 @@ def test_a_log_is_told_in_words(run: Run, words: str) -> None:
         (["#0184"], "       models          I-7017Z, M-7017Z\n"),
         (["$0153A"], "       models          all but I-7017Z, M-7017Z, M-7017mC-16, "),
         (["#01", ENGINEERING], "format          engineering or percent\n"),
-        (["#01", ENGINEERING], "type            not known: --type tells\n"),
+        (["#01", ENGINEERING], "type            unknown: give --type\n"),
         ([">+0025.1"], "channel         +0025.1\n"),
     ],
 )
@@ -419,7 +419,7 @@ def test_a_log_without_a_frame_is_an_error_only_as_a_whole(run: Run) -> None:
 def test_frameless_lines_count_if_that_is_asked_for(run: Run) -> None:
     result = run("decode", "COM3 opened", "$012", "--strict")
 
-    assert (result.code, result.err) == (1, "i7000: 1 not understood: line 1\n")
+    assert (result.code, result.err) == (1, "i7000: 1 without a frame: line 1\n")
 
 
 def test_no_line_is_wrapped_or_cut(run: Run) -> None:

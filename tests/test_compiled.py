@@ -58,6 +58,6 @@ def test_the_first_error_of_a_class_is_raised_where_the_others_are(kind: Any) ->
 def test_every_message_class_shows_what_it_was_compiled_to(kind: Any) -> None:
     source = kind.layout.source
 
-    assert source.startswith("def check(m):")
+    assert source.startswith("def construct(self")
     assert "def encode(m, p):" in source
     assert "def decode(" in source

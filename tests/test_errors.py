@@ -1,10 +1,23 @@
 """Errors carry the facts, name them in their text, and survive pickling."""
 
 import pickle
+from typing import Any
 
 import pytest
 
-from i7000 import DecodeError, EncodeError, Fault
+from i7000 import (
+    DecodeError,
+    EncodeError,
+    Fault,
+    InvalidValueError,
+    Model,
+    Profile,
+    Unit,
+    dcon,
+    device,
+    host,
+    modbus,
+)
 
 
 def test_an_encode_error_names_field_value_allowed_and_section() -> None:
@@ -61,3 +74,20 @@ def test_errors_survive_pickling() -> None:
 
     for error in (decode, encode):
         assert vars(error) == vars(pickle.loads(pickle.dumps(error)))  # noqa: S301
+
+
+def test_only_what_is_sent_or_what_a_module_can_be_is_an_encode_error() -> None:
+    refused: list[type[InvalidValueError]] = []
+    for function in (
+        lambda: dcon.ReadAnalogInput(0x01, 256),
+        lambda: Profile(Model.I_7018, single_ended=True),
+        lambda: host.Policy(retries=-1),
+        lambda: host.wake(host.Bus[Any](), float("nan")),
+        lambda: device.Signal(float("inf"), Unit.VOLT),
+        lambda: modbus.RegisterMap(Profile(Model.M_7017)).plan(1, ["filter"]).decode([]),
+    ):
+        with pytest.raises(InvalidValueError) as caught:
+            function()
+        refused.append(type(caught.value))
+
+    assert refused == [EncodeError, EncodeError, *[InvalidValueError] * 4]

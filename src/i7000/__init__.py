@@ -3,7 +3,16 @@
 The vocabulary is here; the protocols are the modules `i7000.dcon` and, for M-7000 modules, Modbus RTU.
 """
 
-from i7000.errors import ArgumentError, DecodeError, EncodeError, Fault, I7000Error, Noise, StateError
+from i7000.errors import (
+    ArgumentError,
+    DecodeError,
+    EncodeError,
+    Fault,
+    I7000Error,
+    InvalidValueError,
+    Noise,
+    StateError,
+)
 from i7000.models import Firmware, Model, series
 from i7000.profile import Profile
 from i7000.readings import Reading, Status
@@ -34,6 +43,7 @@ __all__ = [
     "Filter",
     "Firmware",
     "I7000Error",
+    "InvalidValueError",
     "LineSettings",
     "LogCommand",
     "ModbusDataFormat",

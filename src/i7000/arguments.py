@@ -7,7 +7,7 @@ argument of another type than the function works on is an `ArgumentError`; a val
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
-from i7000.errors import ArgumentError, EncodeError, StateError
+from i7000.errors import ArgumentError, InvalidValueError, StateError
 
 __all__ = ["as_bytes", "as_tuple", "check_clock", "check_int", "check_seconds", "check_type", "is_number"]
 
@@ -73,17 +73,17 @@ def is_number(value: object) -> bool:
 def check_seconds(name: str, value: object) -> None:
     """Check a time that is a field.
 
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
     """
     if not is_number(value):
-        raise EncodeError(name, value, "a finite number of seconds", "")
+        raise InvalidValueError(name, value, "a finite number of seconds", "")
 
 
 def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
     """Check a time in seconds, of a clock that was at `before` when it was last read.
 
-    Errors: `ArgumentError` for what is no number, `EncodeError` for one that is not finite, `StateError` for a clock
-        that went back.
+    Errors: `ArgumentError` for another type, `InvalidValueError` for a number that is not finite, `StateError` for a
+        clock that went back.
     """
     if not isinstance(now, _NUMBERS) or isinstance(now, bool):
         raise ArgumentError("now", now, "int or float")

@@ -1,15 +1,15 @@
-"""Source that is made from the statements of messages, compiled; and the check of values, which both protocols share.
+"""Source that is made from the statements of messages, compiled; and the constructor, which both protocols share.
 
 Laws: what is made can be read: tracebacks and debuggers show its lines, as those of any other source.
 """
 
 import linecache
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from typing import Any, Never, Protocol
 
 from i7000.errors import EncodeError
 
-__all__ = ["Field", "check_names", "check_source", "compiled"]
+__all__ = ["Field", "compiled", "constructor_names", "constructor_source"]
 
 
 def compiled(source: str, name: str, names: dict[str, Any]) -> dict[str, Any]:
@@ -40,13 +40,16 @@ class Field(Protocol):
         """The range of a plain number."""
 
 
-def check_source(fields: Mapping[str, Field]) -> Iterator[str]:
-    """Yield the lines of a function that refuses values that no message of a class can have.
+def constructor_source(fields: Mapping[str, Field], keywords: Container[str], more: Iterable[str]) -> Iterator[str]:
+    """Yield the lines of a constructor that refuses values that no message of a class can have.
 
+    Shape: `keywords` are the fields that are given by keyword only; `more` are lines for what fields can be together.
     Special: a plain number within its bounds is nearly always there, so it is looked at first; `accepts` takes other
         kinds of int too.
     """
-    yield "def check(m):"
+    positional = [name for name in fields if name not in keywords]
+    named = [name for name in fields if name in keywords]
+    yield f"def construct({', '.join(['self', *positional, *['*'] * bool(named), *named])}):"
     if not fields:
         yield "    pass"
     for name, field in fields.items():
@@ -54,18 +57,22 @@ def check_source(fields: Mapping[str, Field]) -> Iterator[str]:
         if field.bounds:
             low, high = field.bounds
             plain = f"not ({name}.__class__ is int and {low} <= {name} <= {high}) and "
-        yield f"    {name} = m.{name}"
         yield f"    if {plain}not accepts_{name}({name}):"
         yield f"        refuse({name!r}, {name})"
+    yield from more
+    yield from (f"    set_{name}(self, {name})" for name in fields)
 
 
-def check_names(fields: Mapping[str, Field], section: str) -> dict[str, Any]:
-    """Return what `check_source` uses.
+def constructor_names(message: Any, fields: Mapping[str, Field]) -> dict[str, Any]:  # noqa: ANN401 - a message class
+    """Return what `constructor_source` uses.
 
-    Errors: its `refuse` raises `EncodeError`, with `section` of the manual.
+    Errors: its `refuse` raises `EncodeError`.
     """
 
     def refuse(name: str, value: object, allowed: str = "") -> Never:
-        raise EncodeError(name, value, allowed or fields[name].allowed, section)
+        raise EncodeError(name, value, allowed or fields[name].allowed, message.section)
 
-    return {f"accepts_{name}": field.accepts for name, field in fields.items()} | {"refuse": refuse}
+    names: dict[str, Any] = {"refuse": refuse}
+    for name, field in fields.items():
+        names |= {f"accepts_{name}": field.accepts, f"set_{name}": getattr(message, name).__set__}
+    return names

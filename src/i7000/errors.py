@@ -1,16 +1,26 @@
 """What can be wrong: every error of the package lives here.
 
 Laws: given arguments of the right types, an encoder raises nothing but `EncodeError`, a decoder nothing but
-`DecodeError`. A function called with another type raises `ArgumentError`; a constructor raises `EncodeError` for a
-field that cannot have the value, whatever its type. What a module may legally say is never an error: a refusal
-(``?AA``) is a value.
+`DecodeError`. A function called with another type raises `ArgumentError`. A constructor raises `InvalidValueError` for
+a value that the field cannot have, whatever its type; `EncodeError` is the kind of it for messages and for what modules
+can be. What a module may legally say is never an error: a refusal (``?AA``) is a value.
 """
 
 from enum import Enum
 
 from i7000.frozen import frozen
 
-__all__ = ["ArgumentError", "DecodeError", "EncodeError", "Fault", "I7000Error", "Noise", "StateError", "shown"]
+__all__ = [
+    "ArgumentError",
+    "DecodeError",
+    "EncodeError",
+    "Fault",
+    "I7000Error",
+    "InvalidValueError",
+    "Noise",
+    "StateError",
+    "shown",
+]
 
 
 class Fault(Enum):
@@ -59,8 +69,8 @@ class I7000Error(Exception):
         return f"{type(self).__name__}({', '.join(map(shown, self.args))})"
 
 
-class EncodeError(I7000Error, ValueError):
-    """A value that cannot be sent.
+class InvalidValueError(I7000Error, ValueError):
+    """A value that a field or an argument cannot have, such as a negative timeout.
 
     Shape: `field`, `value`, `allowed` (what it could be, or who can), `section` of the manual, empty where the manual
         is not the reason; `reason` where more is to say than that the field cannot have the value.
@@ -78,6 +88,10 @@ class EncodeError(I7000Error, ValueError):
         reason = self.reason or f"{self.field} cannot be {shown(self.value)}"
         source = f", manual {self.section}" if self.section else ""
         return f"{reason}: {self.allowed}{source}"
+
+
+class EncodeError(InvalidValueError):
+    """A value that cannot be sent, or that no module can have."""
 
 
 class DecodeError(I7000Error, ValueError):

@@ -46,8 +46,8 @@ else:
     def frozen(kind: type | None = None, **options: bool) -> type | Callable[[type], type]:
         """Make a frozen class with slots from a class with annotated fields, as `attrs.frozen` does.
 
-        Shape: `options` are ``eq``, ``repr`` and ``kw_only`` of attrs. The result is a new class, so that `super()` in
-            its methods must name it: ``super(Command, cls)``.
+        Shape: `options` are ``eq``, ``repr``, ``init`` and ``kw_only`` of attrs. The result is a new class, so that
+            `super()` in its methods must name it: ``super(Command, cls)``.
         """
         if kind is None:
             return lambda kind: frozen(kind, **options)
@@ -57,6 +57,7 @@ else:
         for name in ("__weakref__", "__dict__"):
             plain.pop(name, None)
         namespace = {name: value for name, value in plain.items() if name not in fields}
-        awaited = {name: _Awaited(plain, options) for name in _AWAITED if name not in namespace}
+        left = {*namespace, *(() if options.get("init", True) else ("__init__",))}
+        awaited = {name: _Awaited(plain, options) for name in _AWAITED if name not in left}
         namespace |= {"__slots__": tuple(slots), **awaited}
         return type(kind)(kind.__name__, kind.__bases__, namespace)

@@ -27,17 +27,35 @@ class CompiledOnce:
         self._compile = compile_layout
 
     def __get__(self, message: object, kind: Any) -> Any:  # noqa: ANN401 - a class and its layout
-        if not hasattr(kind, "section"):
-            instead: str = kind._instead  # noqa: SLF001 - of the class that this is part of
-            raise ArgumentError("message", kind, f"construct {instead}", f"{kind.__name__} is a base class")
         kind.layout = self._compile(kind)
         return kind.layout
+
+
+class ConstructedOnce:
+    """The constructor of a message class, which its layout has."""
+
+    def __get__(self, message: Any, kind: Any) -> Any:  # noqa: ANN401 - a message or None, its class, the constructor
+        if not hasattr(kind, "section"):
+            return _construct_a_base.__get__(message, kind)
+        constructor = kind.layout.construct
+        constructor.__name__, constructor.__qualname__ = "__init__", f"{kind.__qualname__}.__init__"
+        constructor.__module__ = kind.__module__
+        constructor.__annotations__ = {it.name: it.type for it in fields(kind)} | {"return": None}
+        kind.__init__ = constructor
+        return constructor.__get__(message, kind)
+
+
+def _construct_a_base(message: Any, *_: object, **__: object) -> None:  # noqa: ANN401 - a message
+    kind = type(message)
+    instead: str = kind._instead  # noqa: SLF001 - of the class that this constructs
+    raise ArgumentError("message", kind, f"construct {instead}", f"{kind.__name__} is a base class")
 
 
 if TYPE_CHECKING:
     from attrs import frozen
 else:
-    frozen = partial(i7000.frozen.frozen, eq=False, repr=False)  # whose comparison and text are those of `Message`
+    # The comparison, text and constructor are those of `Message`.
+    frozen = partial(i7000.frozen.frozen, eq=False, repr=False, init=False)
 
 
 class Message:
@@ -56,11 +74,8 @@ class Message:
     _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
     """What to construct where a class is only the base of others, which has no section."""
 
-    def __init__(self, *_: object, **__: object) -> None:  # of a base class without fields; attrs makes that of others
-        _ = self.layout
-
-    def __attrs_post_init__(self) -> None:
-        self.layout.check(self)
+    if not TYPE_CHECKING:  # attrs says which arguments it has
+        __init__ = ConstructedOnce()
 
     def _values(self) -> dict[str, Any]:
         return {it.name: getattr(self, it.name) for it in fields(type(self))}  # type: ignore[arg-type] # of an attrs class

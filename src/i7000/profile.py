@@ -1,7 +1,8 @@
 """What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
+from operator import itemgetter
 from typing import NamedTuple
 
 from attrs import field
@@ -40,14 +41,17 @@ RESPONSE_DELAYS = (0, 30)
 
 
 class Numbers(NamedTuple):
-    """How all channels of a module write numbers in engineering units, if all have one type."""
+    """How the channels of a module write numbers in engineering units: what a line of all of them looks like."""
 
-    points: slice
-    """Where in a line of them the points stand."""
-    all_points: str
+    width: int
+    """The characters of the line."""
+    points: slice | Callable[[str], tuple[str, ...]]
+    """Where the points stand in it: a slice if all channels have one type, else a function that picks them."""
+    all_points: str | tuple[str, ...]
     """What stands there."""
-    lowest: float
-    highest: float
+    lowest: tuple[float, ...]
+    """The lowest number of each channel."""
+    highest: tuple[float, ...]
 
 
 @frozen
@@ -83,7 +87,7 @@ class Profile:
     units: tuple[Unit, ...] = field(init=False, eq=False, repr=False)
     """The unit of each channel, if the types are known."""
     numbers: Numbers | None = field(init=False, eq=False, repr=False)
-    """What is in a report in engineering units of channels of one type; None for any other report."""
+    """What is in a report in engineering units; None for a report in another format, or of unknown types."""
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
     """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
     refused: frozenset[Availability] = field(init=False, eq=False, repr=False)
@@ -306,7 +310,7 @@ def _types(
             raise EncodeError("type_codes", code.name, allowed, "1.11")
     if len(kinds) > 1 and not (model in CONFIGURABLE and _runs(firmware, CONFIGURABLE[model])):
         raise EncodeError("type_codes", codes, f"one type for all channels: {model.value}", "2.15")
-    return tuple(code.unit for code in codes), _numbers(codes[0], channels) if len(kinds) == 1 else None
+    return tuple(code.unit for code in codes), _numbers(codes) if codes else None
 
 
 def _runs(firmware: Firmware | None, since: Firmware | None) -> bool:
@@ -321,6 +325,11 @@ def _supported_types(model: Model, firmware: Firmware | None) -> str:
     return " ".join(code.name for code in model.type_codes if _supports(code, model, firmware))
 
 
-def _numbers(code: TypeCode, channels: int) -> Numbers:
-    points = slice(TEXT_WIDTH - 1 - code.decimals, None, TEXT_WIDTH)
-    return Numbers(points, "." * channels, code.lowest, code.highest)
+def _numbers(codes: tuple[TypeCode, ...]) -> Numbers:
+    width = TEXT_WIDTH * len(codes)
+    lowest, highest = tuple(code.lowest for code in codes), tuple(code.highest for code in codes)
+    if len(set(codes)) == 1:
+        at = TEXT_WIDTH - 1 - codes[0].decimals
+        return Numbers(width, slice(at, None, TEXT_WIDTH), "." * len(codes), lowest, highest)
+    places = [TEXT_WIDTH * (channel + 1) - 1 - code.decimals for channel, code in enumerate(codes)]
+    return Numbers(width, itemgetter(*places), (".",) * len(codes), lowest, highest)

@@ -9,6 +9,7 @@ made of them.
 
 from itertools import repeat
 from math import ceil, floor
+from operator import le
 from types import MethodType
 from typing import NamedTuple
 
@@ -170,25 +171,29 @@ def encode_fields(
 def decode_numbers(fields: tuple[str, ...], profile: Profile) -> tuple[Reading, ...] | None:
     """Read the fields of all channels if they are numbers of their types in engineering units: nearly always.
 
-    Special: channels of one type take no step in Python each. None for any other report: see `decode_fields`.
+    Special: no channel takes a step in Python. None for any other report: see `decode_fields`.
     """
-    if profile.data_format is not DataFormat.ENGINEERING:
+    numbers = profile.numbers
+    if numbers is None:
         return None
-    if profile.numbers is None:
-        found = [
-            make_reading((value, code.unit, Status.OK))
-            for field, code in zip(fields, profile.type_codes, strict=False)
-            if field[-1 - code.decimals :][:1] == "." and code.lowest <= (value := float(field)) <= code.highest
-        ]
-        return tuple(found) if len(found) == len(fields) == len(profile.type_codes) else None
-    points, all_points, lowest, highest = profile.numbers
-    if "".join(fields)[points] != all_points:
+    width, points, all_points, lowest, highest = numbers
+    line = "".join(fields)
+    if len(line) != width:
         return None
-    values = tuple(map(float, fields))
-    ordered = sorted(values)
-    if ordered[0] < lowest or ordered[-1] > highest:
+    if isinstance(points, slice):
+        if line[points] != all_points:
+            return None
+        values = tuple(map(float, fields))
+        ordered = sorted(values)
+        within = lowest[0] <= ordered[0] and ordered[-1] <= highest[0]
+    else:
+        if points(line) != all_points:
+            return None
+        values = tuple(map(float, fields))
+        within = all(map(le, lowest, values)) and all(map(le, values, highest))
+    if not within:
         return None
-    return tuple(map(make_reading, zip(values, profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
+    return tuple(map(_new, _A_READING, zip(values, profile.units, _ALL_OK)))  # noqa: B905 - as many as fields
 
 
 def decode_fields(
@@ -206,6 +211,8 @@ def decode_fields(
 
 
 _ALL_OK = repeat(Status.OK)
+_A_READING = repeat(Reading)
+_new = tuple.__new__
 make_reading = MethodType(tuple.__new__, Reading)
 """Of value, unit and status: without the step in Python that `Reading` takes."""
 

@@ -219,6 +219,8 @@ def store(it: Oracle, name: str, at: int, value: int) -> None:  # noqa: C901 - a
         it.stored_protocol = "modbus" if value else "dcon"
     elif name == "host_watchdog_timed_out":
         it.timed_out = False
+    else:
+        assert name == "load_factory_calibration", name
 
 
 def write_coil(it: Oracle, body: bytes) -> bytes:
@@ -257,15 +259,19 @@ def write_several(area: str) -> Callable[[Oracle, bytes], bytes]:
 # --- function 46h -----------------------------------------------------------------------------------------------------
 
 
+FORMS = {
+    0x00: "", 0x04: "v000", 0x05: "0", 0x06: "0v000v00", 0x07: "0v", 0x08: "0vv", 0x20: "", 0x25: "", 0x26: "m",
+    0x29: "", 0x2A: "v", 0x2B: "v", 0x2C: "vvv", 0x2D: "0", 0x2E: "0v", 0x2F: "", 0x30: "v",
+}  # fmt: skip
+"""What follows each sub-function: ``v`` a value, ``0`` a reserved byte, ``m`` a mask."""
+
+
 def module_setting(it: Oracle, body: bytes) -> bytes:  # noqa: C901, PLR0911, PLR0912 - a table
     """Read or write a setting of the module (3.3)."""
     sub, data = body[0] if body else -1, body[1:]
     refuse(2 if body else 3, when=sub not in SUB_FUNCTIONS or not it.has(SUB_FUNCTIONS[sub]))
     width = it.mask_digits // 2
-    form = {
-        0x00: "", 0x04: "v000", 0x05: "0", 0x06: "0v000v00", 0x07: "0v", 0x08: "0vv", 0x20: "", 0x25: "",
-        0x26: "v" * width, 0x29: "", 0x2A: "v", 0x2B: "v", 0x2C: "vvv", 0x2D: "0", 0x2E: "0v", 0x2F: "", 0x30: "v",
-    }[sub]  # fmt: skip
+    form = FORMS[sub].replace("m", "v" * width)
     refuse(3, when=len(data) != len(form) or any(byte for byte, mark in zip(data, form, strict=True) if mark == "0"))
     values: list[Any] = [byte for byte, mark in zip(data, form, strict=True) if mark == "v"]
     head, done = bytes((sub,)), bytes((sub, 0))

@@ -12,8 +12,8 @@ from i7000 import (
     BaudRate,
     CharacterFormat,
     DataFormat,
-    EncodeError,
     Fault,
+    InvalidValueError,
     LineSettings,
     Model,
     Noise,
@@ -108,7 +108,7 @@ def test_answers_that_collide_are_garbled_unless_they_are_equal() -> None:
 def test_every_module_has_its_signals() -> None:
     line = bus(A01=Model.I_7018)
 
-    with pytest.raises(EncodeError, match="signals cannot be 0: 1, those of each module"):
+    with pytest.raises(InvalidValueError, match="signals cannot be 0: 1, those of each module"):
         line.step(dcon.seal(b"#01", checksum=False), [], 0.0)
 
 
@@ -307,7 +307,7 @@ def test_all_that_waits_for_silence_has_to_end_with_the_frame() -> None:
 
 @pytest.mark.parametrize("modules", [None, [], (None,), "modules"])
 def test_a_bus_is_a_tuple_of_modules(modules: Any) -> None:
-    with pytest.raises(EncodeError, match=r"modules cannot be .*: a tuple of State"):
+    with pytest.raises(InvalidValueError, match=r"modules cannot be .*: a tuple of State"):
         Bus(modules)
 
 

@@ -7,7 +7,7 @@ import pytest
 from i7000 import (
     CjcUpdate,
     DataFormat,
-    EncodeError,
+    InvalidValueError,
     ModbusDataFormat,
     Model,
     Protocol,
@@ -291,13 +291,13 @@ def test_a_stopped_update_keeps_the_temperature_of_when_it_was_stopped() -> None
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 def test_a_signal_is_finite(value: float) -> None:
-    with pytest.raises(EncodeError):
+    with pytest.raises(InvalidValueError):
         Signal(value, Unit.VOLT)
 
 
 @pytest.mark.parametrize("value", [float("nan"), 201.0, -201.0])
 def test_a_cold_junction_is_where_modules_can_be(value: float) -> None:
-    with pytest.raises(EncodeError):
+    with pytest.raises(InvalidValueError):
         Signals(cold_junction=value)
 
 

@@ -15,8 +15,8 @@ from i7000 import (
     ArgumentError,
     BaudRate,
     DataFormat,
-    EncodeError,
     Firmware,
+    InvalidValueError,
     LineSettings,
     ModbusDataFormat,
     Model,
@@ -114,7 +114,7 @@ def test_the_newest_firmware_has_everything() -> None:
     ],
 )
 def test_what_no_module_can_have_stored_is_refused(model: Model, changes: dict[str, Any]) -> None:
-    with pytest.raises(EncodeError):
+    with pytest.raises(InvalidValueError):
         evolve(factory(model), **changes)
 
 
@@ -131,14 +131,14 @@ def test_what_no_module_can_have_stored_is_refused(model: Model, changes: dict[s
     ],
 )
 def test_what_no_module_can_hold_in_its_ram_is_refused(change: Callable[..., object], name: str, value: Any) -> None:
-    with pytest.raises(EncodeError, match=f"{name} cannot be"):
+    with pytest.raises(InvalidValueError, match=f"{name} cannot be"):
         change(power_on(factory(Model.M_7019R), now=0.0), **{name: value})
 
 
 @pytest.mark.parametrize("name", ["clock_offset", "next_at"])
 @pytest.mark.parametrize("value", [math.nan, math.inf, "x", True])
 def test_a_log_has_no_time_that_is_not_finite(name: str, value: Any) -> None:
-    with pytest.raises(EncodeError, match=f"{name} cannot be .*: a finite number of seconds"):
+    with pytest.raises(InvalidValueError, match=f"{name} cannot be .*: a finite number of seconds"):
         Log(**{name: value})
 
 
@@ -158,7 +158,7 @@ def test_a_log_has_no_time_that_is_not_finite(name: str, value: Any) -> None:
     ids=lambda it: it if isinstance(it, str) else repr(it)[:20],
 )
 def test_what_no_data_logger_can_have_stored_is_refused(name: str, value: Any) -> None:
-    with pytest.raises(EncodeError, match=f"^{name} cannot be "):
+    with pytest.raises(InvalidValueError, match=f"^{name} cannot be "):
         Log(**{name: value})
 
 
@@ -172,7 +172,7 @@ def test_what_no_data_logger_can_have_stored_is_refused(name: str, value: Any) -
 def test_what_no_record_can_hold_is_refused(name: str, value: Any) -> None:
     fields: dict[str, Any] = {"index": 1, "words": (0,), "time": 0}
 
-    with pytest.raises(EncodeError, match=f"^{name} cannot be "):
+    with pytest.raises(InvalidValueError, match=f"^{name} cannot be "):
         Record(**fields | {name: value})
 
 
@@ -220,9 +220,9 @@ def test_what_no_module_can_have_stored_is_not_stored() -> None:
         {"single_ended": True},
         {"model": Model.I_7018},
     ):
-        with pytest.raises(EncodeError):
+        with pytest.raises(InvalidValueError):
             state.store(**changes)
-    with pytest.raises(EncodeError, match="type_codes"):
+    with pytest.raises(InvalidValueError, match="type_codes"):
         power_on(factory(Model.M_7017Z), now=0.0).store(type_codes=(*[TypeCode.V_10] * 19, TypeCode.K))
 
 
@@ -303,28 +303,28 @@ def test_a_module_of_20_channels_that_was_changed_is_as_one_that_was_made_so() -
 def test_a_time_that_is_not_finite_is_refused(now: float) -> None:
     state = power_on(factory(Model.M_7017mC_16), now=0.0)
 
-    with pytest.raises(EncodeError, match="now cannot be"):
+    with pytest.raises(InvalidValueError, match="now cannot be"):
         power_on(state.eeprom, now=now)
-    with pytest.raises(EncodeError, match="now cannot be"):
+    with pytest.raises(InvalidValueError, match="now cannot be"):
         step(state, b"$012\r", Signals(), now)
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), 10**400, True, "1"])
 def test_a_signal_is_a_finite_number(value: Any) -> None:
-    with pytest.raises(EncodeError, match="value cannot be"):
+    with pytest.raises(InvalidValueError, match="value cannot be"):
         Signal(value, Unit.VOLT)
-    with pytest.raises(EncodeError, match="cold_junction cannot be"):
+    with pytest.raises(InvalidValueError, match="cold_junction cannot be"):
         Signals(cold_junction=value)
 
 
 @pytest.mark.parametrize("channels", [[Signal(1.0, Unit.VOLT)], (1.0,), None])
 def test_signals_are_a_tuple_of_signals_and_open_wires(channels: Any) -> None:
-    with pytest.raises(EncodeError, match="channels cannot be"):
+    with pytest.raises(InvalidValueError, match="channels cannot be"):
         Signals(channels)
 
 
 def test_a_signal_has_a_unit() -> None:
-    with pytest.raises(EncodeError, match="unit cannot be 'V'"):
+    with pytest.raises(InvalidValueError, match="unit cannot be 'V'"):
         Signal(1.0, "V")  # type: ignore[arg-type]
 
 

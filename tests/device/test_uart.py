@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import BaudRate, CharacterFormat, EncodeError, LineSettings
+from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
 from i7000.device import Uart
 from i7000.device.uart import _levels, _sampled, hear_at
 from i7000.strategies.device import uarts
@@ -69,7 +69,7 @@ def test_a_line_has_the_settings_of_its_byte() -> None:
     ],
 )
 def test_what_no_port_can_be_set_to_is_refused(field: str, wrong: object) -> None:
-    with pytest.raises(EncodeError) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         wrong()  # type: ignore[operator] # each is a function
 
     assert field == refused.value.field

@@ -11,6 +11,7 @@ from i7000 import (
     EncodeError,
     Fault,
     Firmware,
+    InvalidValueError,
     LineSettings,
     Model,
     Noise,
@@ -109,14 +110,14 @@ def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing(
 
 @pytest.mark.parametrize("name", ["line", "policy", "echo", "pending", "last", "rest"])
 def test_a_line_has_no_field_of_another_type(name: str) -> None:
-    with pytest.raises(EncodeError, match=rf"{name} cannot be 'text': an instance of \w+"):
+    with pytest.raises(InvalidValueError, match=rf"{name} cannot be 'text': an instance of \w+"):
         Bus(**{name: "text"})  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", ["heard_at", "quiet_until", "clock"])
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), float("-inf"), 10**400, True, "5"])
 def test_a_time_of_a_bus_that_is_not_finite_is_refused(name: str, value: Any) -> None:
-    with pytest.raises(EncodeError, match=f"{name} cannot be .*: a finite number of seconds"):
+    with pytest.raises(InvalidValueError, match=f"{name} cannot be .*: a finite number of seconds"):
         Bus(**{name: value})
 
 
@@ -192,7 +193,7 @@ def test_a_character_takes_what_speed_and_format_of_the_line_say(line: LineSetti
 
 
 def test_a_line_whose_speed_is_not_defined_is_refused() -> None:
-    with pytest.raises(EncodeError, match=r"baud_rate cannot be '2A': 03\.\.0A"):
+    with pytest.raises(InvalidValueError, match=r"baud_rate cannot be '2A': 03\.\.0A"):
         Bus[Any](line=LineSettings(0x2A))
 
 
@@ -211,7 +212,7 @@ def test_a_line_whose_speed_is_not_defined_is_refused() -> None:
     ],
 )
 def test_a_policy_that_is_none_is_refused(name: str, value: object) -> None:
-    with pytest.raises(EncodeError, match=f"{name} cannot be") as caught:
+    with pytest.raises(InvalidValueError, match=f"{name} cannot be") as caught:
         Policy(**{name: value})  # type: ignore[arg-type] # the subject
 
     assert (name, value) == (caught.value.field, caught.value.value)

@@ -66,11 +66,11 @@ def frame(body: str) -> bytes:
         (modbus.SetTypeCode(0x01, 1, TypeCode.V_10), M_7017, r"channel cannot be 1: 0\.\.0: M-7017, manual 3\.3\.6"),
         (modbus.SetTypeCode(0x01, 0, TypeCode.K), M_7017, "type_code cannot be 'K': V_10 V_5 V_1_0A .*: M-7017"),
         (modbus.SetTypeCode(0x01, 0, 0x30), M_7019R, "type_code cannot be '30'"),
-        (modbus.SetMiscellaneousSettings(0x01, 0x20), M_7018, "settings cannot be '20': bits of 80: M-7018"),
+        (modbus.SetMiscellaneousSettings(0x01, 0x20), M_7018, "settings cannot be '20': only bits of 80h: M-7018"),
         (
             modbus.SetMiscellaneousSettings(0x01, 0x80),
             Profile(Model.M_7019R, firmware=Firmware("B2.6"), type_codes=()),
-            "settings cannot be '80': bits of 00: M-7019R",
+            "settings cannot be '80': only bits of 00h: M-7019R",
         ),
         (modbus.ReadCjcOffset(0x01, 0x01), M_7018, r"channel cannot be '01': 00, 80\.\.87: M-7018, manual 3\.3\.12"),
         (modbus.SetCjcOffset(0x01, 0x88, 0), M_7018, r"channel cannot be '88': 00, 80\.\.87: M-7018, manual 3\.3\.13"),

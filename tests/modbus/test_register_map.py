@@ -14,6 +14,7 @@ from i7000 import (
     Fault,
     Filter,
     Firmware,
+    InvalidValueError,
     LineSettings,
     LogCommand,
     ModbusDataFormat,
@@ -630,7 +631,7 @@ def test_a_plan_of_nothing_asks_nothing() -> None:
 def test_a_plan_needs_a_response_for_each_request() -> None:
     plan = M_7017.plan(0x01, ["filter", "response_delay"])
 
-    with pytest.raises(EncodeError, match="responses cannot be 1: 2, one for each request"):
+    with pytest.raises(InvalidValueError, match="responses cannot be 1: 2, one for each request"):
         plan.decode([modbus.Coils(0x01, (True,))])
 
 

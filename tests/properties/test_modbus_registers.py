@@ -8,7 +8,7 @@ from attrs import evolve
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from i7000 import DecodeError, EncodeError, Fault, Model, Profile, Protocol, modbus
+from i7000 import DecodeError, EncodeError, Fault, InvalidValueError, Model, Profile, Protocol, modbus
 from i7000.modbus import Access, Area, Kind, Plan, Register, RegisterMap
 from i7000.strategies import profiles
 from i7000.strategies.modbus import plans, register_items, register_maps, register_values, registers
@@ -297,7 +297,7 @@ def test_an_exception_is_the_value_of_all_that_it_refused(plan: Plan) -> None:
 def test_another_number_of_responses_than_requests_is_refused(plan: Plan, count: int) -> None:
     assume(count != len(plan.requests))
 
-    with pytest.raises(EncodeError) as caught:
+    with pytest.raises(InvalidValueError) as caught:
         plan.decode([modbus.Coils(0x01, (True,))] * count)
 
     assert caught.value.field == "responses"

@@ -7,7 +7,7 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import EncodeError
+from i7000 import InvalidValueError
 from i7000.simulator.faults import Faults, Piece, Transfer
 
 CHARACTER = 10 / 9600
@@ -79,7 +79,7 @@ def test_the_same_chance_has_the_same_faults(seed: int) -> None:
 
 @pytest.mark.parametrize(("name", "value"), [("drop", 1.1), ("flip", -0.1), ("late", float("nan")), ("late_by", 61.0)])
 def test_what_is_no_probability_and_no_time_is_refused(name: str, value: float) -> None:
-    with pytest.raises(EncodeError) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         Faults(**{name: value})  # type: ignore[arg-type]
 
     assert name == refused.value.field

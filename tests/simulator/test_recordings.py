@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import EncodeError, Unit
+from i7000 import InvalidValueError, Unit
 from i7000.simulator import recordings
 from i7000.simulator.files import UnsuitableFileError
 from i7000.simulator.recordings import read_recording
@@ -30,7 +30,7 @@ def read(path: Path, content: str | bytes) -> dict[str, Recorded]:
 
 
 def refusal(path: Path, content: str | bytes) -> str:
-    with pytest.raises(EncodeError) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         read(path, content)
     return str(refused.value)
 
@@ -108,7 +108,7 @@ def test_rows_are_read_alike_whatever_stands_beside_them(
     def outcome(content: str) -> object:
         try:
             return list(read(path, content)["0"].values)[-len(rows) :]
-        except EncodeError as refused:
+        except InvalidValueError as refused:
             return refused.value
 
     assert repr(outcome(f"seconds,0,note\n{lines}")) == repr(outcome(f"seconds,0,note\n{odd}{lines}"))
@@ -202,7 +202,7 @@ def test_any_lines_are_a_recording_or_refused(tmp_path_factory: pytest.TempPathF
     refused = "line"
     try:
         read(path, "\n".join(("seconds,0", *lines)))
-    except EncodeError as error:
+    except InvalidValueError as error:
         refused = str(error)
 
     assert refused.startswith("line")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import EncodeError, Model, TypeCode, Unit
+from i7000 import InvalidValueError, Model, TypeCode, Unit
 from i7000.device import OPEN_WIRE, Signal, Signals, factory
 from i7000.simulator.sources import (
     OPEN,
@@ -229,14 +229,14 @@ def test_the_extremes_of_a_recording_are_the_lowest_the_highest_and_an_open_wire
 )
 def test_what_could_give_no_signal_is_refused_when_it_is_made(make: object, field: str) -> None:
     assert callable(make)
-    with pytest.raises(EncodeError) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         make()
 
     assert field == refused.value.field
 
 
 def test_a_refusal_names_value_and_what_is_allowed() -> None:
-    with pytest.raises(EncodeError) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         Ramp(0, 10, 0, Unit.VOLT)
 
     assert str(refused.value) == "period cannot be 0.0: more than 0 seconds, Ramp"
@@ -282,14 +282,14 @@ def test_the_cold_junction_changes_too() -> None:
     ],
 )
 def test_a_cold_junction_that_no_module_has_is_refused(source: Source) -> None:
-    with pytest.raises(EncodeError, match="cold_junction"):
+    with pytest.raises(InvalidValueError, match="cold_junction"):
         Sources(cold_junction=source)
 
 
 @pytest.mark.parametrize("seconds", [-0.1, inf, nan])
 @pytest.mark.parametrize("module", [Sources(), Sources((Noise(0, 1, Unit.VOLT),))])
 def test_what_is_no_time_is_refused(module: Sources, seconds: float) -> None:
-    with pytest.raises(EncodeError, match="seconds"):
+    with pytest.raises(InvalidValueError, match="seconds"):
         module.at(seconds)
 
 

@@ -1,6 +1,7 @@
 """The canonical text of the files under ``spec/``, and the walks over them that their tests share.
 
-``python -m tests.spec.lint`` names the files that are not canonical; with ``--fix`` it rewrites them.
+``python -m tests.spec.lint`` prints what is wrong with the files, a line each: JSON that cannot be read, a record that
+does not fit its schema, text that is not canonical. With ``--fix`` it makes the text canonical first.
 
 Laws: a data file is one JSON object with a top-level key a line and a record a line, and of a story a step a line; keys
 stand in the order of the schema; a schema is indented by two. Nothing here knows what a field means.
@@ -10,8 +11,11 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from jsonschema import Draft202012Validator
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -72,8 +76,19 @@ def name(path: Path) -> str:
 
 def load(path: Path) -> Record:
     """Read one file, refusing an object that names a key twice."""
-    data: Record = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
+    text = path.read_text(encoding="utf-8")
+    try:
+        data: Record = json.loads(text, object_pairs_hook=_unique)
+    except json.JSONDecodeError as error:
+        before = " ".join(text[: error.pos].split())[-_SHOWN:]
+        after = " ".join(text[error.pos :].split())[:_SHOWN]
+        reason = error.msg[0].lower() + error.msg[1:]
+        raise ValueError(f"line {error.lineno}: {reason} between {before!r} and {after!r}") from None
     return data
+
+
+_SHOWN = 30
+"""Characters of the text on each side of a slip that a message shows."""
 
 
 def _unique(pairs: list[tuple[str, Json]]) -> Record:
@@ -183,8 +198,33 @@ def canonical_file(path: Path) -> str:
     return canonical(data)
 
 
+def misfits(path: Path) -> Iterator[str]:
+    """What does not fit the schema of a file: the record by its name, the place in it, and the reason."""
+    data = load(path)
+    for error in Draft202012Validator(load(schema_path(path))).iter_errors(data):
+        key, *rest = error.absolute_path or ("",)
+        place = [str(part) for part in rest]
+        if place and isinstance(data[key], list):
+            record = data[key][int(place[0])]
+            names = (record.get(column) for column in ("id", "name", "section", "code", "type_code"))
+            place[0] = str(next((known for known in names if known is not None), f"number {int(place[0]) + 1}"))
+        where = ": ".join(part for part in (str(key), *place) if part)
+        yield f"{where}: {error.message[:300]}"
+
+
+def faults(path: Path) -> list[str]:
+    """What is wrong with one file."""
+    try:
+        found = [] if path.parent == SPEC / "schema" else list(misfits(path))
+        if not found and path.read_bytes() != canonical_file(path).encode():
+            found = ["not canonical: run python -m tests.spec.lint --fix"]
+    except ValueError as error:
+        found = [str(error)]
+    return [f"{name(path)}: {fault}" for fault in found]
+
+
 def fix(path: Path) -> bool:
-    """Rewrite one file canonically; tell whether it was not."""
+    """Rewrite one file canonically; return whether it was not."""
     text = canonical_file(path)
     if path.read_bytes() == text.encode():
         return False
@@ -193,16 +233,17 @@ def fix(path: Path) -> bool:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Check every file, or rewrite it; the exit status is the number of files that are not canonical."""
+    """Check every file, after rewriting it with ``--fix``; the exit status is 1 if something is wrong."""
     paths = data_files() + schema_files()
     if "--fix" in arguments:
-        for path in filter(fix, paths):
-            sys.stdout.write(f"{name(path)} rewritten\n")
-        return 0
-    wrong = [path for path in paths if path.read_bytes() != canonical_file(path).encode()]
-    for path in wrong:
-        sys.stdout.write(f"{name(path)} is not canonical\n")
-    return len(wrong)
+        for path in paths:
+            with suppress(ValueError):
+                if fix(path):
+                    sys.stdout.write(f"{name(path)} rewritten\n")
+    wrong = [fault for path in paths for fault in faults(path)]
+    for fault in wrong:
+        sys.stdout.write(f"{fault}\n")
+    return int(bool(wrong))
 
 
 if __name__ == "__main__":

@@ -9,11 +9,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from i7000 import EncodeError, LineSettings, TypeCode, modbus
+from i7000.cli.choices import chosen
 from i7000.cli.numbers import hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import Scale, counts
-from i7000.cli.words import UsageError, member, near, truth, type_code
+from i7000.cli.words import UsageError, near, truth, type_code
 from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
@@ -184,7 +185,7 @@ def _value(row: Register, text: str) -> Any:  # noqa: ANN401
     if row.values is LineSettings:
         return LineSettings.from_byte(hex_byte(text))
     if row.values:
-        return member(text, row.values)
+        return chosen(text, row.values)
     if row.kind is Kind.BOOL:
         return truth(text)
     scale = Scale(row.unit or "", round(1 / (row.scale or 1)))

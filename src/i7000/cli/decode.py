@@ -1,126 +1,176 @@
-"""``i7000 decode``: what the frames of a log mean."""
+"""``i7000 decode``: what the frames of a log, a capture or a stream mean."""
 
 import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from io import BufferedReader
 from pathlib import Path
 from typing import Annotated, Literal
 
+from attrs import frozen
 from cyclopts import Parameter
 
-from i7000.cli.options import UNKNOWN, Json, Module
-from i7000.cli.records import Record, frameless_record, heard_record
-from i7000.cli.source import LONGEST_LINE, Counted, Lines
-from i7000.cli.text import Printer, frame_lines
+from i7000.cli.frame_text import frame_lines
+from i7000.cli.numbers import integer
+from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module
+from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_stream
+from i7000.cli.records import json_of
+from i7000.cli.schema import SCHEMA
+from i7000.cli.source import LONGEST_LINE, Counted, Lines, chunks
+from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
-from i7000.dissect import Heard, Kind, Knowledge, Piece, Place, hear_frame, pieces
-from i7000.dissect import Line as Listener
-from i7000.dissect.stream import looks_like
+from i7000.dissect import Knowledge
+from i7000.dissect.capture import is_capture
 from i7000.settings import Protocol
 
-__all__ = ["decode", "records"]
-
-_PROTOCOLS: dict[str, Protocol | None] = {"auto": None, "dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+__all__ = ["decode"]
 
 
-def decode(
-    *frames: Annotated[str, Parameter(help="Frames; without any, the lines of --file or of standard input.")],
-    file: Annotated[Path | None, Parameter(help="A log; - is standard input.", allow_leading_hyphen=True)] = None,
-    protocol: Annotated[Literal["auto", "dcon", "rtu"], Parameter(help="DCON, Modbus RTU, or both.")] = "auto",
+def decode(  # noqa: PLR0913 - each of them is an option
+    *frames: Annotated[str, Parameter(help="Frames; without any, those of --file or of standard input.")],
+    file: Annotated[
+        Path | None, Parameter(help="A log, pcap or pcapng file; - is standard input.", allow_leading_hyphen=True)
+    ] = None,
+    raw: Annotated[bool, Parameter(help="The input is what was on the line, byte by byte.", negative="")] = False,
+    protocol: Annotated[
+        Literal["auto", "dcon", "rtu"], Parameter(help="DCON, Modbus RTU, or auto: both, also mixed on one line.")
+    ] = "auto",
+    address: Annotated[
+        tuple[str, ...], Parameter(help="Show the module at this address only.", negative="", show_default=False)
+    ] = (),
     strict: Annotated[bool, Parameter(help="Lines without a frame are not understood either.", negative="")] = False,
     json: Json = False,
+    schema: Annotated[bool, Parameter(help="Print the JSON Schema of --json.", negative="")] = False,
     module: Module = UNKNOWN,
 ) -> int:
-    r"""Decode frames: those given, or those of a log.
+    r"""Decode frames: those given, or those of a log, a capture file or a stream.
 
-    A DCON frame is text (`$012`, with or without `\r` or `(CR)` at its end), or pairs of hex digits up to the final
-    `0d`. Quote it: the shell knows `$`, `#` and `>` too; and put `--` before frames of which one begins with `->`. A
-    Modbus frame is in hex: `010400000008F1CC`, `01 04 ...`, `0x01,0x04,...`, `\x01\x04...`; one argument a frame, or
-    more that follow one another. Lines of a log can have dates, words (`TX:`), brackets and arrows before the frame;
-    what cannot be understood is printed too, and named at the end.
+    Frames are found in any line and in any of the usual spellings: text (`$012`, `$012\r`, `$012<CR>`), hex
+    (`01 04 00 00 00 08 F1 CC`, `0x01,0x04,...`, `\x01\x04...`), decimal numbers, dumps; with dates, words and arrows
+    around them. In a shell, quote frames: it knows `$`, `#` and `>` too; and put `--` before one that begins with `-`.
 
-    A response is read together with the command before it. Without `--model` all that it could be is told. With
-    `--model`, what is not given has its factory default if the frame fits that, and is left open if not. By Modbus the
-    model gives registers their names, and readings their values.
+    Each response is decoded together with its command. What the traffic shows of a module is used from there on: its
+    name, firmware, types, data format, checksum. Without `--model`, every possible meaning is listed. With `--model`,
+    what is neither given nor shown has its factory default, if the frame fits that.
 
-    Exit code: 0 if all was understood (also if in more ways than one), 1 if not, 2 for wrong usage.
+    Several modules: `--model 1=M-7019R@B3.7,type=K --model 2=I-7018,checksum=true`.
 
-    JSON has the same keys always, null or empty where there is nothing to tell:
+    Exit code: 0 if every frame is understood (also if in more ways than one), 1 if one is damaged, unknown or
+    contradicts what is known, or if there is none at all, 2 for wrong usage.
 
-    * the frame: `line`, `direction` (command or response; request, response or echo), `text` (the line), `frame`,
-      `wire` (hex), `answers` (line of the command), `error`, `fault`;
-    * its meaning, if it has one: `name`, `title`, `section`, `syntax`, `command` (that it answers), `fields` (numbers,
-      as in the vectors of spec), `explained` (the same in words), `readings` (`channel`, `text`, `status`, `type_code`,
-      `value`, `unit`), `registers` (`number`, `name`, `channel`, `value`, `unit`, `status`, `text`), `errata`, `pause`
-      (seconds to leave the module alone), `models`, `checksum` (null: fits both), `data_formats`, `assumed` (what has
-      its factory default), `note` (what else is to be known);
-    * if it has more: `candidates`, objects with the keys of a meaning.
+    `--json` writes an object a line; `--schema` prints what its keys are.
     """
-    knowledge = Knowledge.given(module.known(protocol))
-    count = framed = 0
-    wrong = Counted()
+    if schema:
+        sys.stdout.write(f"{SCHEMA}\n")
+        return 0
+    knowledge = module.knowledge(protocol)
+    shown = frozenset(map(integer, address))
     printer = Printer(json=json)
-    with _source(frames, file, printer) as lines:
-        texts = ((number, text.decode("utf-8", "surrogateescape")) for number, text in lines)
-        for record, heard in records(texts, knowledge, _PROTOCOLS[protocol]):
-            count += 1
-            framed += heard is not None
-            if strict if heard is None else not heard.understood:
-                wrong.add(record["line"])
-            unknown = heard is not None and knowledge.of(heard.address).known.model is None
-            printer.record(record, frame_lines(record, None if heard is None else heard.answers, models=unknown))
-    long = lines.long if isinstance(lines, Lines) else Counted()
-    if not count:
-        printer.error("there was nothing to decode")
-    elif not framed:
-        printer.error("there is no frame in it")
-    if long.count:
-        printer.error(f"{long.count} too long, read in pieces of {LONGEST_LINE} bytes that may cut frames: line {long}")
-    if wrong.count:
-        printer.error(f"{wrong.count} not understood: line {wrong}")
-    return 1 if wrong.count or long.count or (count and not framed) else 0
+    with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
+        tally = _print(reads, knowledge, shown, printer)
+    return tally.code(printer, lines.long if lines else Counted(), strict=strict)
 
 
-def records(
-    lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: Protocol | None
-) -> Iterator[tuple[Record, Heard | None]]:
-    """Yield a record for each frame of a log, and for each line without one."""
-    line = Listener(knowledge, protocol)
-    for number, piece in enumerate(pieces(lines, protocol), 1):
-        if piece.kind is None:
-            yield frameless_record(number, piece), None
-            continue
-        place = Place(number, f"line {piece.number}")
-        line, heard = hear_frame(line, piece.wire, _protocol_of(piece) if protocol is None else protocol, place)
-        yield heard_record(piece, heard), heard
+# --- what is decoded --------------------------------------------------------------------------------------------------
 
 
-def _protocol_of(piece: Piece) -> Protocol:
-    if piece.kind is Kind.DAMAGED:
-        return looks_like(piece.wire)
-    return Protocol.DCON if piece.kind is Kind.DCON else Protocol.MODBUS_RTU
+@frozen
+class _Input:
+    frames: tuple[str, ...]
+    file: Path | None
+    raw: bool
 
 
 @contextmanager
-def _source(frames: tuple[str, ...], file: Path | None, printer: Printer) -> Iterator[Iterable[tuple[int, bytes]]]:
-    """The numbered lines to decode; what was decoded is printed before waiting for more."""
-    if frames and file:
-        raise UsageError("frames are given, and a file too: give one of them")
-    if frames:
-        yield enumerate(map(_argument, frames), 1)
-    elif file and file != Path("-"):
-        with file.open("rb") as log:
-            yield Lines(log, printer.flush)
+def _reads(
+    given: _Input, knowledge: Knowledge, protocol: Protocol | None, printer: Printer
+) -> Iterator[tuple[Iterable[Read], Lines | None]]:
+    """Yield what is read of the input; what was decoded is printed before waiting for more."""
+    if given.frames:
+        if given.file or given.raw:
+            raise UsageError("frames are given, and --file or --raw too: give one of them")
+        yield of_lines(enumerate(map(_argument, given.frames), 1), knowledge, protocol), None
+        return
+    with _opened(given.file) as stream:
+        if given.raw:
+            yield of_stream(chunks(stream, printer.flush), knowledge, protocol), None
+        elif is_capture(stream.peek(4)[:4]):
+            yield of_capture(chunks(stream, printer.flush), knowledge, protocol), None
+        else:
+            lines = Lines(stream, printer.flush)
+            yield of_lines(((number, _text(line)) for number, line in lines), knowledge, protocol), lines
+
+
+@contextmanager
+def _opened(file: Path | None) -> Iterator[BufferedReader]:
+    if file and file != Path("-"):
+        with file.open("rb") as stream:
+            yield stream
     elif sys.stdin is None or (file is None and sys.stdin.isatty()):
         raise UsageError("no frames: give some, or --file, or a log on standard input; see i7000 decode --help")
     else:
-        yield Lines(sys.stdin.buffer, printer.flush)  # type: ignore[arg-type] # it is buffered
+        yield sys.stdin.buffer  # type: ignore[misc] # it is a reader
 
 
-def _argument(text: str) -> bytes:
-    """The bytes that an argument was made of, UTF-8 or not."""
+def _text(line: bytes) -> str:
+    return line.decode("utf-8", "surrogateescape")
+
+
+def _argument(text: str) -> str:
+    """Return an argument as it would be in a file, whatever the encoding of arguments is."""
     try:
-        return os.fsencode(text)
+        return _text(os.fsencode(text))
     except UnicodeEncodeError:
-        return text.encode("utf-8", "surrogatepass")
+        return _text(text.encode("utf-8", "surrogatepass"))
+
+
+# --- what is printed --------------------------------------------------------------------------------------------------
+
+
+class _Tally:
+    """How many frames there were, and which of them are not understood."""
+
+    def __init__(self) -> None:
+        self.records = self.frames = 0
+        self.wrong, self.frameless = Counted(), Counted()
+
+    def add(self, read: Read) -> None:
+        """Count what was read."""
+        self.records += 1
+        self.frames += read.heard is not None
+        if read.missing is Missing.NOTHING:
+            self.frameless.add(read.line)
+        if not read.understood:
+            self.wrong.add(read.line)
+
+    def code(self, printer: Printer, long: Counted, *, strict: bool) -> int:
+        """Say what was wrong, and return the exit code."""
+        if not self.records:
+            printer.error("there was nothing to decode")
+        elif not self.frames:
+            printer.error("there is no frame in it")
+        if long.count:
+            cut = f"read in pieces of {LONGEST_LINE} bytes that may cut frames"
+            printer.error(f"{long.count} too long, {cut}: line {long}")
+        if self.wrong.count:
+            printer.error(f"{self.wrong.count} not understood: line {self.wrong}")
+        if strict and self.frameless.count:
+            printer.error(f"{self.frameless.count} without a frame: line {self.frameless}")
+            return 1
+        return 1 if self.wrong.count or long.count or (self.records and not self.frames) else 0
+
+
+def _print(reads: Iterable[Read], knowledge: Knowledge, shown: frozenset[int], printer: Printer) -> _Tally:
+    tally = _Tally()
+    for read in reads:
+        heard = read.heard
+        if shown and (heard is None or heard.address not in shown):
+            continue
+        tally.add(read)
+        if printer.json:
+            printer.write(json_of(read))
+        else:
+            unknown = heard is not None and knowledge.of(heard.address).known.model is None
+            printer.lines(frame_lines(read, models=unknown))
+    return tally

@@ -219,7 +219,8 @@ def errata_named(name: str) -> Iterator[Record]:
 
     Errors: `UsageError` if there is none.
     """
-    wanted = re.sub(r"(?<=^E)(?=\d$)", "0", name.upper())
+    number = re.fullmatch("E([0-9]+)", name.upper())
+    wanted = f"E{int(number[1]):02}" if number else ""
     found = [
         row
         for row in facts.errata().values()

@@ -14,11 +14,12 @@ from attrs import evolve
 
 from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
 from i7000.cli.by_register import held, is_of_registers
+from i7000.cli.choices import chosen
 from i7000.cli.numbers import hex_byte, integer
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
-from i7000.cli.words import UsageError, baud_rate, member, near, truth, type_code
+from i7000.cli.words import UsageError, baud_rate, near, truth, type_code
 from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
@@ -96,9 +97,10 @@ def refusal_words(refusal: EncodeError, kind: type[Message], assignments: Sequen
     field = refusal.field
     if field not in written:
         return str(refusal)
-    scale = scale_of(kind, field, channel=written.get("channel", "0") != "0")
-    counts = f", counts of {1 / scale.per_unit:g} {scale.unit}" if scale and "counts" not in refusal.allowed else ""
-    return str(as_written(refusal, field, written[field], counts))
+    scale = scale_of(kind, field, channel=written.get("channel", "0") != "0") if field in parts_of(kind) else None
+    said = scale is None or scale.unit in refusal.allowed
+    also = "" if scale is None or said else f", counts of {1 / scale.per_unit:g} {scale.unit}"
+    return str(as_written(refusal, field, written[field], also))
 
 
 def frame_text(message: Message, frame: bytes) -> str:
@@ -163,7 +165,7 @@ def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
     for assignment in assignments:
         field, equals, value = assignment.partition("=")
         if not equals:
-            raise UsageError(f"{assignment!r} is not field=value")
+            raise UsageError(f"{assignment!r} is not field=value; the fields of {kind.__name__} are {', '.join(known)}")
         if field not in known:
             raise UsageError(f"{kind.__name__} has no {field}: {', '.join(known)}{near(field, known)}")
         if field in given:
@@ -185,7 +187,9 @@ def find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
             raise UsageError(f"{name} is of the other protocol: --protocol {protocol}")
         close = [plain[word].__name__ for word in plain if wanted and wanted in word]
         hint = f"; did you mean {' or '.join(close)}?" if close else near(name, [kind.__name__ for kind in kinds])
-        raise UsageError(f"there is no {name!r}{hint}")
+        if name[:1] in ("$", "#", "%", "~", "@", "!", ">", "?"):
+            hint = "; that is a frame, and i7000 decode reads it"
+        raise UsageError(f"there is no command or response {name!r}{hint or ': i7000 commands lists them'}")
     return plain[wanted]
 
 
@@ -199,7 +203,7 @@ def _named(field: str, text: str, read: Callable[[str], Any]) -> Any:  # noqa: A
 def _reader(kind: Any) -> Callable[[str], Any]:  # noqa: ANN401 - a type
     """Choose how to read the text of a field with values of this type."""
     if isinstance(kind, type) and issubclass(kind, Enum):
-        return lambda text: member(text, kind)
+        return lambda text: chosen(text, kind)
     return _LISTS.get(kind) or _READERS.get(kind, type_code)
 
 
@@ -234,21 +238,26 @@ _LISTS: dict[Any, Callable[[str], Any]] = {
 
 
 def _channels(text: str) -> int:
-    return dcon.mask_of(integer(channel) for channel in text.split(",") if channel.strip())
-
-
-def _choice(kind: type[Enum]) -> Callable[[str], Any]:
-    return lambda text: member(text, kind)
+    """Read channels and ranges of channels as a mask."""
+    found: set[int] = set()
+    for part in filter(None, map(str.strip, text.split(","))):
+        first, dash, last = part.partition("-")
+        ends = (integer(first), integer(last if dash else first))
+        dcon.mask_of(ends)  # which refuses what no module has, however large
+        if ends[0] > ends[1]:
+            raise UsageError(f"{part} has no channel: write {last}-{first}")
+        found.update(range(ends[0], ends[1] + 1))
+    return dcon.mask_of(found)
 
 
 _PARTS: dict[str, dict[str, Callable[[str], Any]]] = {
     "mask": {"channels": _channels},
-    "line_settings": {"baud_rate": baud_rate, "character_format": _choice(CharacterFormat)},
+    "line_settings": {"baud_rate": baud_rate, "character_format": _reader(CharacterFormat)},
     "report_settings": {
-        "data_format": _choice(DataFormat),
+        "data_format": _reader(DataFormat),
         "checksum": truth,
         "fast_mode": truth,
-        "filter": _choice(Filter),
+        "filter": _reader(Filter),
         "reserved": integer,
     },
 }

@@ -13,9 +13,8 @@ from i7000 import (
     BaudRate,
     CharacterFormat,
     DataFormat,
-    EncodeError,
-    Filter,
     Firmware,
+    InvalidValueError,
     ModbusDataFormat,
     Model,
     Protocol,
@@ -23,6 +22,7 @@ from i7000 import (
     Unit,
     dcon,
 )
+from i7000.cli.choices import FILTERS, PROTOCOLS
 from i7000.cli.numbers import integer
 from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, baud_rate, channel_numbers, choice, member, near, quantity, truth, type_codes
@@ -36,7 +36,7 @@ def named(*names: str) -> Iterator[None]:
     """Tell in errors what was read."""
     try:
         yield
-    except (UsageError, EncodeError) as error:
+    except (UsageError, InvalidValueError) as error:
         raise UsageError(": ".join((*names, str(error)))) from None
 
 
@@ -78,7 +78,7 @@ def read_module(text: str, address: int) -> Described:
                 **{"address": address} | values[""],
             )
             _check(eeprom)
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             if refusal.field not in written:
                 raise
             raise as_written(refusal, *written[refusal.field]) from None
@@ -116,7 +116,7 @@ def _assigned(
 def _check(eeprom: Eeprom) -> None:
     """Refuse what the module could not have been set to.
 
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
     """
     profile = power_on(eeprom, now=0.0).profile
     code = profile.type_codes[0]
@@ -172,8 +172,6 @@ def _type(text: str) -> TypeCode:
 _EXACT = 1e-6
 _HUNDREDTHS = _counts(Unit.CELSIUS, 100, -0x1000, 0x1000)
 _TENTHS = _counts(Unit.CELSIUS, 10, -0x80, 0x7F)
-_PROTOCOLS = {"dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
-_FILTERS = {"50hz": Filter.REJECT_50_HZ, "60hz": Filter.REJECT_60_HZ} | {one.name.lower(): one for one in Filter}
 
 
 @frozen
@@ -209,13 +207,13 @@ def _of(field: str, read: Callable[[str], Any], scope: _Scope = _EVERY, within: 
 _SETTINGS: dict[str, _Setting] = {
     "address": _of("address", integer),
     "type": _Setting("type_codes", _each("type_codes", _type)),
-    "protocol": _of("protocol", lambda text: choice(text, _PROTOCOLS)),
+    "protocol": _of("protocol", lambda text: choice(text, PROTOCOLS)),
     "baud": _of("baud_rate", _defined_baud_rate, within="line_settings"),
     "character_format": _of("character_format", lambda text: member(text, CharacterFormat), within="line_settings"),
     "checksum": _of("checksum", truth, within="report_settings"),
     "format": _of("data_format", lambda text: member(text, DataFormat), within="report_settings"),
     "fast_mode": _of("fast_mode", truth, within="report_settings"),
-    "filter": _of("filter", lambda text: choice(text, _FILTERS), within="report_settings"),
+    "filter": _of("filter", lambda text: choice(text, FILTERS), within="report_settings"),
     "modbus_format": _of("modbus_data_format", lambda text: member(text, ModbusDataFormat), _MODBUS),
     "response_delay": _of("response_delay", integer, _MODBUS),
     "single_ended": _of("single_ended", truth),

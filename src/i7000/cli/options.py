@@ -7,15 +7,17 @@ from attrs import evolve, fields, frozen
 from cyclopts import Parameter
 
 from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Protocol
+from i7000.cli import choices
 from i7000.cli.module import Described, read_module
 from i7000.cli.numbers import integer
+from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, type_codes
 from i7000.dissect import Knowledge, Known
 
 __all__ = ["PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="DCON, or Modbus RTU.")]
-PROTOCOLS: dict[str, Protocol | None] = {"auto": None, "dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
 """The names of the protocols at the terminal."""
 
 _ADDRESSED = re.compile(r"([^=@,]*)=(.*)")
@@ -78,7 +80,7 @@ class Module:
                 for name in (it.name for it in fields(Known))
                 if (value := getattr(options, name)) is not None and getattr(described, name) is None
             }
-            found[address] = _checked(evolve(described, **missing), protocol)
+            found[address] = self._checked(evolve(described, **missing), protocol)
         return found
 
     def _options(self, protocol: str) -> Known:
@@ -96,20 +98,26 @@ class Module:
                 self.single_ended,
                 self.modbus_format,
             )
-        except EncodeError as error:
-            raise UsageError(error) from None
-        return known if self.model else _checked(known, protocol)
+        except EncodeError as refusal:
+            raise self._said(refusal) from None
+        return known if self.model else self._checked(known, protocol)
 
+    def _checked(self, known: Known, protocol: str) -> Known:
+        """Refuse what no module is."""
+        if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
+            raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
+        try:
+            _ = known.default, known.all, protocol == "rtu" and known.modbus
+        except EncodeError as refusal:
+            raise self._said(refusal) from None
+        return known
 
-def _checked(known: Known, protocol: str) -> Known:
-    """Refuse what no module is."""
-    if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
-        raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
-    try:
-        _ = known.default, known.all, protocol == "rtu" and known.modbus
-    except EncodeError as error:
-        raise UsageError(error) from None
-    return known
+    def _said(self, refusal: EncodeError) -> UsageError:
+        """Return a refusal with the option that was given."""
+        options = {"firmware": ("--firmware", self.firmware), "type_codes": ("--type", self.types)}
+        options["single_ended"] = ("--single-ended", "given")
+        name, text = options.get(refusal.field, ("", None))
+        return UsageError(as_written(refusal, name, text) if text is not None else refusal)
 
 
 def _described(text: str) -> tuple[int | None, Known]:
@@ -124,8 +132,8 @@ def _described(text: str) -> tuple[int | None, Known]:
     if "@" not in text and "," not in text:
         try:
             return address, Known(Model.find(text))
-        except EncodeError as error:
-            raise UsageError(error) from None
+        except EncodeError as refusal:
+            raise UsageError(as_written(refusal, "--model", text)) from None
     described = read_module(text, 1 if address is None else address)
     if address is None and "address" in described.given:
         address = described.eeprom.address

@@ -4,6 +4,7 @@ Laws: `fields` are those of the class, numbers as numbers, bytes of settings as 
 ``spec``; `explained` has the same in words.
 """
 
+import json
 from collections.abc import Iterable
 from enum import Enum
 from functools import lru_cache
@@ -12,33 +13,37 @@ from typing import Any
 from attrs import fields
 
 from i7000 import LineSettings, ReportSettings, dcon, modbus
-from i7000.dissect import ChannelReading, Heard, Item, Meaning, Piece
+from i7000.cli.options import PROTOCOLS
+from i7000.cli.readers import Read
+from i7000.dissect import ChannelReading, Heard, Item, Meaning
 from i7000.dissect.meaning import errata
 from i7000.message import Message
 from i7000.settings import Protocol
 
 __all__ = [
-    "PROTOCOLS",
+    "OPTIONS",
     "SCHEMA_VERSION",
+    "VALUES",
     "Record",
     "command_record",
-    "frameless_record",
-    "heard_record",
+    "json_of",
+    "meaning_record",
     "parts_of",
     "register_record",
 ]
 
 Record = dict[str, Any]
 SCHEMA_VERSION = 1
-PROTOCOLS = {Protocol.DCON: "dcon", Protocol.MODBUS_RTU: "rtu"}
-"""The protocols as the options name them."""
+_PROTOCOLS = {protocol: name for name, protocol in PROTOCOLS.items()}
 
 _UNKNOWN: Record = {
     "name": None, "title": None, "section": None, "syntax": None, "command": None, "fields": {}, "explained": {},
     "readings": [], "registers": [], "errata": [], "pause": 0.0, "models": [], "checksum": None, "data_formats": [],
-    "assumed": [], "notes": [],
+    "assumed": [],
 }  # fmt: skip
 """A meaning that is unknown: all the keys, and nothing else."""
+_json = json.JSONEncoder(check_circular=False).encode
+_UNKNOWN_JSON = _json(_UNKNOWN)[1:-1]
 
 
 def parts_of(kind: type[Message]) -> dict[str, Any]:
@@ -49,54 +54,51 @@ def parts_of(kind: type[Message]) -> dict[str, Any]:
 # --- decode -----------------------------------------------------------------------------------------------------------
 
 
-def heard_record(piece: Piece, heard: Heard) -> Record:
-    """Return the record of a frame."""
-    meaning = heard.meanings[0] if len(heard.meanings) == 1 else None
-    several = heard.candidates if meaning else (*heard.meanings, *heard.candidates)
-    record = _head(heard.place.number, piece) | {
-        "protocol": PROTOCOLS[heard.protocol],
-        "direction": heard.direction and heard.direction.value,
-        "address": heard.address,
-        "frame": _frame(heard),
-        "wire": heard.wire.hex(),
-        "answers": heard.answers and heard.answers.number,
+def json_of(read: Read) -> str:
+    """Return what was read as a JSON object."""
+    heard = read.heard
+    meaning = heard.meanings[0] if heard is not None and len(heard.meanings) == 1 else None
+    middle = _UNKNOWN_JSON
+    if heard is not None and meaning is not None:
+        middle = (_remembered_json if len(heard.wire) <= _SHORT else _meaning_json)(meaning)
+    return f"{_json(_head(read))[:-1]}, {middle}, {_json(_tail(read, meaning))[1:]}"
+
+
+def _head(read: Read) -> Record:
+    heard = read.heard
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "record": read.number,
+        "line": read.line,
+        "last_line": read.last,
+        "time": read.time,
+        "text": read.text,
+        "protocol": None if heard is None else _PROTOCOLS[heard.protocol],
+        "direction": None if heard is None or heard.direction is None else heard.direction.value,
+        "address": None if heard is None else heard.address,
+        "frame": None if heard is None else _frame(heard),
+        "wire": None if heard is None else heard.wire.hex(),
+        "answers": None if heard is None or heard.answers is None else heard.answers.number,
     }
-    record |= _UNKNOWN if meaning is None else _meaning_record(meaning, remember=len(heard.wire) <= _SHORT)
+
+
+def _tail(read: Read, meaning: Meaning | None) -> Record:
+    heard = read.heard
+    if heard is None:
+        notes = [] if read.note is None else [read.note]
+        return {
+            "notes": notes, "note": read.note, "contradictions": [], "candidates": [], "error": None, "fault": None,
+        }  # fmt: skip
     notes = [*heard.notes, *heard.contradictions]
-    return record | {
+    several = heard.candidates if meaning else (*heard.meanings, *heard.candidates)
+    return {
         "notes": notes,
         "note": "; ".join(notes) or None,
-        "candidates": [meaning_record(candidate) for candidate in several],
         "contradictions": list(heard.contradictions),
+        "candidates": [meaning_record(candidate) | {"notes": list(candidate.notes)} for candidate in several],
         "error": None if heard.error is None else str(heard.error),
         "fault": None if heard.error is None else heard.error.fault.value,
     }
-
-
-def frameless_record(number: int, piece: Piece) -> Record:
-    """Return the record of a line without a frame."""
-    return _head(number, piece) | {
-        "protocol": None, "direction": None, "address": None, "frame": None, "wire": None, "answers": None, **_UNKNOWN,
-        "notes": [_NO_FRAME], "note": _NO_FRAME, "candidates": [], "contradictions": [], "error": None, "fault": None,
-    }  # fmt: skip
-
-
-_NO_FRAME = "no frame in this line"
-
-
-def _head(number: int, piece: Piece) -> Record:
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "record": number,
-        "line": piece.number,
-        "last_line": piece.last,
-        "text": _shown(piece.text),
-    }
-
-
-def _shown(text: str) -> str:
-    """Return a line without its end; bytes that are no UTF-8 are escaped."""
-    return text.rstrip("\r\n").encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def _frame(heard: Heard) -> str:
@@ -112,15 +114,11 @@ _SHORT = 128
 """Bytes of a frame up to which its record is kept: those of a frame full of coils are large."""
 
 
-def _meaning_record(meaning: Meaning, *, remember: bool) -> Record:
-    return _remembered_record(meaning) if remember else meaning_record(meaning)
-
-
 def meaning_record(meaning: Meaning) -> Record:
     """Return the record of a meaning."""
     message, command = meaning.message, meaning.command
     items = [_item(item) for item in meaning.items]
-    shown_elsewhere = _VALUES if items or isinstance(message, dcon.Message) else ()
+    shown_elsewhere = VALUES if items or isinstance(message, dcon.Message) else ()
     return {
         "name": type(message).__name__,
         "title": message.title,
@@ -136,15 +134,19 @@ def meaning_record(meaning: Meaning) -> Record:
         "models": [model.value for model in meaning.models],
         "checksum": meaning.checksum,
         "data_formats": [data_format.name.lower() for data_format in meaning.data_formats],
-        "assumed": [_OPTIONS[name] for name in meaning.assumed],
-        "notes": list(meaning.notes),
+        "assumed": [OPTIONS[name] for name in meaning.assumed],
     }
 
 
-_remembered_record = lru_cache(maxsize=_REMEMBERED)(meaning_record)
-_VALUES = ("value", "values")
+def _meaning_json(meaning: Meaning) -> str:
+    """Return the keys of a meaning as a part of a JSON object."""
+    return _json(meaning_record(meaning))[1:-1]
+
+
+_remembered_json = lru_cache(maxsize=_REMEMBERED)(_meaning_json)
+VALUES = ("value", "values")
 """Fields that readings and registers show."""
-_OPTIONS = {"types": "type", "data_format": "format", "modbus_data_format": "modbus_format"}
+OPTIONS = {"types": "type", "data_format": "format", "modbus_data_format": "modbus_format"}
 """The options that say what is assumed."""
 
 

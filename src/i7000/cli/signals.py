@@ -56,6 +56,7 @@ def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0)
     Special: each noise is another one, with the same `seed` the same each time.
     Errors: `UsageError`.
 
+    >>> from i7000 import Model
     >>> from i7000.device import factory
     >>> (sources,) = read_signals(["all=open", "01:0-1=ramp:0:10:60"], [factory(Model.I_7017)])
     >>> sources.channels[0], sources.channels[2] is OPEN

@@ -24,7 +24,7 @@ from i7000.cli.traffic import lines
 from i7000.cli.view import View
 from i7000.cli.words import UsageError, near
 from i7000.device import Eeprom, State
-from i7000.errors import EncodeError, I7000Error
+from i7000.errors import I7000Error, InvalidValueError
 from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
@@ -164,7 +164,7 @@ def read_faults(texts: Sequence[str]) -> Faults:
                 found["late_by"] = float(late_by)
             Faults(**found)
         except ValueError as error:
-            reason = error if isinstance(error, EncodeError) else f"give a probability: --fault {name}=0.01"
+            reason = error if isinstance(error, InvalidValueError) else f"give a probability: --fault {name}=0.01"
             raise UsageError(f"--fault {text}: {reason}") from None
     return Faults(**found)
 

@@ -14,12 +14,10 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cached_property, lru_cache
-from itertools import groupby
 from typing import TYPE_CHECKING, TextIO
 
-from i7000 import Model, describe
+from i7000 import Model
 from i7000.cli.records import Record
-from i7000.dissect import Place
 from i7000.dissect.words import models_words
 
 if TYPE_CHECKING:
@@ -31,7 +29,6 @@ __all__ = [
     "Printer",
     "command_lines",
     "escaped",
-    "frame_lines",
     "printable",
     "register_lines",
     "request_lines",
@@ -71,13 +68,23 @@ class Printer:
     def record(self, record: Record, lines: Iterable[Line]) -> None:
         """Print a record: as it is, or in lines for people."""
         if self.json:
-            _write(_json(record))
-        elif self._styled:
+            self.write(_json(record))
+        else:
+            self.lines(lines)
+
+    def lines(self, lines: Iterable[Line]) -> None:
+        """Print lines for people."""
+        if self._styled:
             for line in lines:
                 _print(self.out, _text(line))
         else:
             for line in lines:
-                _write(_plain(line, sys.stdout))
+                self.write(_plain(line, sys.stdout))
+
+    def write(self, line: str) -> None:
+        """Print a line as it is."""
+        if sys.stdout:
+            sys.stdout.write(line + "\n")
 
     def show(self, lines: Iterable["Text"]) -> None:
         """Print texts for people, at once."""
@@ -99,11 +106,6 @@ class Printer:
         """Write what was printed, now."""
         if sys.stdout:
             sys.stdout.flush()
-
-
-def _write(line: str) -> None:
-    if sys.stdout:
-        sys.stdout.write(line + "\n")
 
 
 def _is_styled(file: TextIO | None) -> bool:
@@ -169,85 +171,9 @@ def printable(text: "Text", encoding: str) -> "Text":
     return type(text)(escaped(plain).encode(encoding, "backslashreplace").decode(encoding))
 
 
-# --- decode -----------------------------------------------------------------------------------------------------------
-
-
-def frame_lines(record: Record, answers: Place | None, *, models: bool) -> Iterator[Line]:
-    """Yield what a frame means; `models`: with the models that it fits."""
-    for at, text in enumerate(record["text"].split("\n")):
-        yield [(f"{record['line'] + at:<4} ", ""), (text, "bold")]
-    if record["error"]:
-        yield [(f"{_INDENT}not understood: {record['error']}", "red")]
-    if record["name"]:
-        yield from _meaning(record, models=models, answers=answers)
-    for count, candidate in enumerate(record["candidates"]):
-        yield [(_INDENT + ("or" if count else "could be"), "")]
-        yield from _meaning(candidate, models=models, answers=answers)
-    for note in record["notes"]:
-        yield _row("note", note)
-
-
-def _meaning(record: Record, *, models: bool, answers: Place | None) -> Iterator[Line]:
-    source = f"manual {record['section']}" + (f"; {' '.join(record['errata'])}" if record["errata"] else "")
-    yield [(_INDENT, ""), (record["name"], "cyan"), (f": {record['title']} ({source})", "")]
-    if record["command"]:
-        yield _row("answers", f"{record['command']}{f', {answers.where}' if answers else ''}")
-    for name, words in record["explained"].items():
-        yield _row(name, words)
-    yield from _registers(record["registers"])
-    yield from _readings(record)
-    if record["readings"] and record["data_formats"]:
-        yield _row("format", " or ".join(record["data_formats"]))
-    if record["checksum"]:
-        yield _row("checksum", "right")
-    if record["pause"]:
-        yield _row("pause", f"{record['pause']:g} s before the next command")
-    if models:
-        yield _row("models", _scope(tuple(record["models"]), record["section"]))
-
-
 @lru_cache(maxsize=256)
 def _scope(models: tuple[str, ...], section: str) -> str:
     return models_words(map(Model, models), section)
-
-
-def _row(name: str, words: str) -> Line:
-    return [(f"{_INDENT}  {name:<15} ", "dim"), (words, "")]
-
-
-def _readings(record: Record) -> Iterator[Line]:
-    for reading in record["readings"]:
-        channel = "channel" if reading["channel"] is None else f"channel {reading['channel']}"
-        line = _row(channel, f"{reading['text']:7}")
-        if reading["status"] == "ok":
-            line.append((f"  {reading['value']:.7g} {reading['unit']}", "green"))
-        elif reading["status"]:
-            line.append((f"  {reading['status'].upper()}", "yellow"))
-        yield line
-    for code in sorted({reading["type_code"] for reading in record["readings"]} - {None}):
-        yield _row("type", describe.type_code(code))
-    if any(reading["status"] is reading["type_code"] is None for reading in record["readings"]):
-        yield _row("type", "not known: --type tells")
-    if record["assumed"]:
-        yield _row("assumed", f"the factory default of {' and '.join(record['assumed'])}")
-
-
-def _registers(registers: list[Record]) -> Iterator[Line]:
-    """Registers with their values; those without, or with readings that were told, in ranges."""
-    for (name, text, _), group in groupby(registers, _in_range):
-        first, *others = group
-        number = first["number"] + (f"..{others[-1]['number']}" if others else "")
-        channel = "" if others or first["channel"] is None else f" {first['channel']}"
-        words = "  ".join(filter(None, ((name or "") + channel, text)))
-        label, style = _row(number, "")[0]
-        yield [(label, style), (words, "")] if words else [(label.rstrip(), style)]
-
-
-def _in_range(register: Record) -> tuple[str | None, str | None, int | None]:
-    """What registers of one line have in common."""
-    if register["status"]:
-        return register["name"], None, None
-    return register["name"], register["text"], None if register["value"] is None else int(register["number"])
 
 
 # --- commands ---------------------------------------------------------------------------------------------------------

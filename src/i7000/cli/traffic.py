@@ -10,7 +10,8 @@ from itertools import groupby
 
 from rich.text import Text
 
-from i7000 import DecodeError, Noise, Profile, Protocol, Reading, Status, dcon, modbus
+from i7000 import Noise, Profile, Protocol, Reading, Status, dcon, modbus
+from i7000.cli.frame_text import fault_words
 from i7000.cli.text import escaped
 from i7000.dissect import ChannelReading, Item, Knowledge, Known, Line, Meaning, hear_frame
 from i7000.simulator.observed import Observed
@@ -93,11 +94,6 @@ def _not_meant(text: str, reason: str) -> Text:
     return Text().append(text, "bold").append(f"  {escaped(reason)}", "red")
 
 
-def _fault(error: DecodeError) -> str:
-    allowed = f"; allowed: {error.allowed}" if error.allowed else ""
-    return f"not understood: {error.fault.value} at byte {error.offset}{allowed}"
-
-
 def _noise(text: str, noise: Noise) -> Text:
     return _not_meant(text, f"no frame: {noise.fault.value}")
 
@@ -137,7 +133,7 @@ def _dcon(observed: Observed) -> _Pieces:
                 return _meant(text, type(meaning.message).__name__, Text("to all modules")), answer
         return _meant(text, "", *_for_nobody(observed)), answer
     if asked.error is not None:
-        return _not_meant(text, _fault(asked.error)), answer
+        return _not_meant(text, f"not understood: {fault_words(asked.error)}"), answer
     (meaning,) = asked.meanings
     if observed.answer is not None and isinstance(meaning.message, dcon.Command):
         answer = _dcon_answer(observed.answer, line)
@@ -153,7 +149,7 @@ def _dcon_answer(wire: bytes, line: Line) -> Text:
     text = _dcon_text(wire)
     _, heard = hear_frame(line, wire, Protocol.DCON)
     if heard.error is not None:
-        return _not_meant(text, _fault(heard.error))
+        return _not_meant(text, f"not understood: {fault_words(heard.error)}")
     (meaning,) = heard.meanings
     return _meant(text, type(meaning.message).__name__, readings_text(meaning.readings, _as_sent), *_words(meaning))
 
@@ -169,7 +165,7 @@ def _modbus(observed: Observed) -> _Pieces:
     text = _modbus_text(heard)
     line, asked = hear_frame(_line(profile, Protocol.MODBUS_RTU), heard, Protocol.MODBUS_RTU)
     if asked.error is not None:
-        return _not_meant(text, _fault(asked.error)), answer
+        return _not_meant(text, f"not understood: {fault_words(asked.error)}"), answer
     (meaning,) = asked.meanings
     details = _modbus_words(meaning, mapped=profile is not None)
     if asked.address == modbus.BROADCAST:
@@ -190,7 +186,7 @@ def _modbus_answer(wire: bytes, line: Line, *, mapped: bool) -> Text:
     text = _modbus_text(wire)
     _, heard = hear_frame(line, wire, Protocol.MODBUS_RTU)
     if heard.error is not None:
-        return _not_meant(text, _fault(heard.error))
+        return _not_meant(text, f"not understood: {fault_words(heard.error)}")
     (meaning,) = heard.meanings
     return _meant(text, type(meaning.message).__name__, *_modbus_words(meaning, mapped=mapped))
 

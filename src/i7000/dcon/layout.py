@@ -1,4 +1,4 @@
-"""One statement of a message's syntax -> its encoder and its decoder.
+"""One statement of a message's syntax -> its constructor, its encoder and its decoder.
 
 A message class has the manual's notation in `syntax`, and its fields are annotated with the part of that notation they
 fill: ``syntax = "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: CjcOffset`` (``SNNNN``), in the order in
@@ -9,13 +9,13 @@ Laws: the constructor takes exactly the values that a part `accepts`.
 
 >>> from i7000 import dcon
 >>> print(dcon.SetCjcOffset.layout.source)
-def check(m):
-    address = m.address
+def construct(self, address, offset):
     if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
         refuse('address', address)
-    offset = m.offset
     if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
         refuse('offset', offset)
+    set_address(self, address)
+    set_offset(self, offset)
 <BLANKLINE>
 def encode(m, p):
     return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
@@ -32,7 +32,9 @@ def decode(t, p):
 from collections.abc import Callable, Iterable, Iterator
 from typing import Annotated, Any, get_origin
 
-from i7000.compiled import check_names, check_source, compiled
+from attrs import fields
+
+from i7000.compiled import compiled, constructor_names, constructor_source
 from i7000.dcon.parts import DIGITS, Part
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
@@ -50,8 +52,8 @@ class Layout:
     """In wire order: ``("", literal)`` or ``(field name, part)``."""
     source: str
     """Of the three functions."""
-    check: Callable[[Any], None]
-    """Refuse values that no message of this class can have."""
+    construct: Callable[..., None]
+    """The constructor: it refuses values that no message of this class can have."""
     encode: Callable[[Any, Profile], bytes]
     """Message and profile -> body."""
     decode: Callable[[str, Profile], Any]
@@ -66,15 +68,15 @@ class Layout:
         """Compile the syntax of a message class."""
         pieces = tuple(pieces_of(message))
         parts = {name: part for name, part in pieces if isinstance(part, Part)}
-        source = "\n".join((*check_source(parts), "", *_encoder(pieces), "", *_decoder(pieces)))
-        names: dict[str, Any] = {"message": message, "new": object.__new__, **check_names(parts, message.section)}
+        keywords = {field.name for field in fields(message) if field.kw_only}
+        source = "\n".join((*constructor_source(parts, keywords, ()), "", *_encoder(pieces), "", *_decoder(pieces)))
+        names: dict[str, Any] = {"message": message, "new": object.__new__, **constructor_names(message, parts)}
         for name, part in parts.items():
             names[f"parse_{name}"] = part.parse
-            names[f"set_{name}"] = getattr(message, name).__set__
         made = compiled(source, f"{message.__module__}.{message.__name__}", names)
         leads = f"{message.syntax[0]}?".encode()
         addressed = any(name == "address" for name, _ in pieces)
-        functions = (made["check"], made["encode"], made["decode"])
+        functions = (made["construct"], made["encode"], made["decode"])
         return cls(message.syntax, pieces, source, *functions, leads, addressed)
 
     def check_digits(self, message: Any, profile: Profile) -> None:  # noqa: ANN401

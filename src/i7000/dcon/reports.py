@@ -19,6 +19,8 @@ __all__ = ["field", "fields", "reading", "readings"]
 
 _REPORTS = (AnalogInputs, AnalogInputsHex, SynchronizedData)
 """The responses that have a field a channel."""
+_IN_DATA_FORMAT = (AnalogInputs, SynchronizedData)
+"""Those whose fields are in the data format of the profile."""
 
 
 def readings(
@@ -39,15 +41,13 @@ def readings(
     """
     if profile.__class__ is not Profile:
         check_type("profile", profile, Profile)
-    if not isinstance(response, _REPORTS):
-        check_type("response", response, *_REPORTS)  # type: ignore[unreachable] # with types
-    if lenient is not False:
-        check_type("lenient", lenient, bool)
-    values = response.values
-    in_hex = isinstance(response, AnalogInputsHex)
-    found = None if lenient or in_hex else decode_numbers(values, profile)
-    if found is not None:
-        return found
+    if response.__class__ in _IN_DATA_FORMAT and lenient is False:  # nearly always
+        found = decode_numbers(response.values, profile)
+        if found is not None:
+            return found
+    check_type("response", response, *_REPORTS)
+    check_type("lenient", lenient, bool)
+    values, in_hex = response.values, isinstance(response, AnalogInputsHex)
     if len(values) != len(profile.type_codes):
         raise _unknown_types("".join(values), profile)
     return decode_fields(values, profile, DataFormat.HEX if in_hex else profile.data_format, lenient=lenient)

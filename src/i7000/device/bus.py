@@ -17,7 +17,7 @@ from i7000.device.module import is_for, step
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.device.uart import Uart, hear_at
-from i7000.errors import EncodeError, Noise
+from i7000.errors import InvalidValueError, Noise
 from i7000.frozen import frozen
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
@@ -47,11 +47,11 @@ class Ear:
 
     def __attrs_post_init__(self) -> None:
         if self.uart is not None and not isinstance(self.uart, Uart):
-            raise EncodeError("uart", self.uart, "a Uart, or None", "1.11")
+            raise InvalidValueError("uart", self.uart, "a Uart, or None", "1.11")
         if not isinstance(self.rests, tuple) or not all(map(_is_rest, self.rests)):
-            raise EncodeError("rests", self.rests, "what `Bus.hear` left", "")
+            raise InvalidValueError("rests", self.rests, "what `Bus.hear` left", "")
         if not isinstance(self.told, bool):
-            raise EncodeError("told", self.told, "True or False", "")
+            raise InvalidValueError("told", self.told, "True or False", "")
 
     @property
     def waiting(self) -> bool:
@@ -95,15 +95,15 @@ class Bus:
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.modules, tuple) or not {State}.issuperset(map(type, self.modules)):
-            raise EncodeError("modules", self.modules, "a tuple of State", "")
+            raise InvalidValueError("modules", self.modules, "a tuple of State", "")
         check_seconds("clock", self.clock)
 
     def step(self, frame: bytes, signals: Sequence[Signals], now: float) -> tuple["Bus", bytes | None]:
         r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
 
         Shape: `signals` are those of each module, in their order.
-        Errors: `EncodeError` for signals of more or fewer modules, and for a time that is not finite; `StateError` for
-            a time before the last, as in `hear` and `silence`.
+        Errors: `InvalidValueError` for signals of more or fewer modules, and for a time that is not finite;
+            `StateError` for a time before the last, as in `hear` and `silence`.
         Special: if several answer at once, each bit is 1 where all send 1 (E112, assumption): equal answers look like
             one.
 
@@ -129,7 +129,7 @@ class Bus:
         for own in signals:
             check_type("signals", own, Signals)
         if len(signals) != len(self.modules):
-            raise EncodeError("signals", len(signals), f"{len(self.modules)}, those of each module", "")
+            raise InvalidValueError("signals", len(signals), f"{len(self.modules)}, those of each module", "")
         return signals
 
     def hear(

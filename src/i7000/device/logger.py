@@ -10,7 +10,7 @@ from math import ceil, floor
 from attrs import evolve
 
 from i7000.arguments import check_seconds
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.settings import LogCommand, is_int
 
@@ -37,12 +37,12 @@ def _check_parts(name: str, value: tuple[int, ...], limits: _Limits) -> None:
     whole = isinstance(value, tuple) and len(value) == len(limits)
     if not whole or not all(is_int(part, *limit) for part, limit in zip(value, limits.values(), strict=True)):
         allowed = ", ".join(f"{part} {low}..{high}" for part, (low, high) in limits.items())
-        raise EncodeError(name, value, f"a tuple of {allowed}", "3.4.3")
+        raise InvalidValueError(name, value, f"a tuple of {allowed}", "3.4.3")
 
 
 def _check_long(name: str, value: object) -> None:
     if not is_int(value, 0, 0xFFFFFFFF):
-        raise EncodeError(name, value, "0..4294967295", "3.4.3")
+        raise InvalidValueError(name, value, "0..4294967295", "3.4.3")
 
 
 @frozen
@@ -50,7 +50,7 @@ class Record:
     """What the inputs read at one moment.
 
     Shape: `words` are in the Modbus data format of that moment; `time` in seconds of the module's clock.
-    Errors: `EncodeError` for what no register holds.
+    Errors: `InvalidValueError` for what no register holds.
     """
 
     index: int
@@ -61,7 +61,7 @@ class Record:
         for name, value in (("index", self.index), ("time", self.time)):
             _check_long(name, value)
         if not isinstance(self.words, tuple) or not all(is_int(word, 0, 0xFFFF) for word in self.words):
-            raise EncodeError("words", self.words, "a tuple of words, 0000..FFFF", "3.4.3")
+            raise InvalidValueError("words", self.words, "a tuple of words, 0000..FFFF", "3.4.3")
 
 
 @frozen
@@ -70,7 +70,7 @@ class Log:
 
     Shape: records are counted from 1 on, so that a last index of 0 says that there is none (E105).
     Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
-    Errors: `EncodeError` for what no module can have stored, and for a time that is not finite.
+    Errors: `InvalidValueError` for what no module can have stored, and for a time that is not finite.
     Manual: 3.4.3; E73, E74, E105, E109, E110, E111, E131, E135.
     """
 
@@ -92,18 +92,18 @@ class Log:
         for name, value in (("clock_offset", self.clock_offset), ("next_at", self.next_at)):
             check_seconds(name, value)
         if not isinstance(self.command, LogCommand):
-            raise EncodeError("command", self.command, "a LogCommand", "3.4.3")
+            raise InvalidValueError("command", self.command, "a LogCommand", "3.4.3")
         if not isinstance(self.overwrite, bool):
-            raise EncodeError("overwrite", self.overwrite, "True or False", "3.4.3")
+            raise InvalidValueError("overwrite", self.overwrite, "True or False", "3.4.3")
         _check_parts("period", self.period, _PERIOD_LIMITS)
         _check_parts("start", self.start, _DATE_LIMITS)
         _check_parts("end", self.end, _DATE_LIMITS)
         _check_long("read_index", self.read_index)
         _check_long("last_index", self.last_index)
         if not isinstance(self.records, tuple) or not {Record}.issuperset(map(type, self.records)):
-            raise EncodeError("records", self.records, "a tuple of Record", "3.4.3")
+            raise InvalidValueError("records", self.records, "a tuple of Record", "3.4.3")
         if len(self.records) > CAPACITY:
-            raise EncodeError("records", len(self.records), f"0..{CAPACITY}", "3.4.3")
+            raise InvalidValueError("records", len(self.records), f"0..{CAPACITY}", "3.4.3")
 
     @property
     def seconds(self) -> int:

@@ -5,7 +5,7 @@ from types import NoneType
 from attrs import frozen
 
 from i7000.arguments import check_seconds, is_number
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.readings import Reading
 from i7000.settings import CjcUpdate, LineSettings, Protocol, is_int
 from i7000.type_codes import TypeCode
@@ -56,19 +56,19 @@ class Ram:
     def check(self, name: str) -> None:
         """Check the value of a field.
 
-        Errors: `EncodeError`.
+        Errors: `InvalidValueError`.
         """
         value, kinds = getattr(self, name), _KEPT[name]
         if not isinstance(value, kinds):
-            raise EncodeError(name, value, f"an instance of {' or '.join(kind.__name__ for kind in kinds)}", "")
+            raise InvalidValueError(name, value, f"an instance of {' or '.join(kind.__name__ for kind in kinds)}", "")
         if name in _BYTES and not is_int(value, 0, 0xFF):
-            raise EncodeError(name, value, "00..FF", _BYTES[name])
+            raise InvalidValueError(name, value, "00..FF", _BYTES[name])
         if name in _TIMES and value is not None:
             check_seconds(name, value)
         if name == "held_cold_junction" and value is not None and not is_number(value):
-            raise EncodeError(name, value, "a finite number of degrees Celsius", "")
+            raise InvalidValueError(name, value, "a finite number of degrees Celsius", "")
         if name == "sampled" and not all(map(_is_sampled, self.sampled or ())):
-            raise EncodeError(name, value, "type code and reading of each channel", "2.2")
+            raise InvalidValueError(name, value, "type code and reading of each channel", "2.2")
 
 
 def _is_sampled(channel: object) -> bool:

@@ -6,7 +6,7 @@ Laws: a signal is what a meter would show at the terminals; what the module make
 from attrs import field, frozen
 
 from i7000.arguments import check_int, is_number
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.type_codes import Unit
 
 __all__ = ["OPEN_WIRE", "Signal", "Signals"]
@@ -16,7 +16,7 @@ __all__ = ["OPEN_WIRE", "Signal", "Signals"]
 class Signal:
     """What is on one input: a voltage, a current, or the temperature of a thermocouple's hot end.
 
-    Errors: `EncodeError` for what is not finite, or has no unit.
+    Errors: `InvalidValueError` for what is not finite, or has no unit.
     """
 
     value: float
@@ -24,9 +24,9 @@ class Signal:
 
     def __attrs_post_init__(self) -> None:
         if not is_number(self.value):
-            raise EncodeError("value", self.value, "a finite number", "1.11")
+            raise InvalidValueError("value", self.value, "a finite number", "1.11")
         if not isinstance(self.unit, Unit):
-            raise EncodeError("unit", self.unit, "a Unit", "1.11")
+            raise InvalidValueError("unit", self.unit, "a Unit", "1.11")
 
 
 OPEN_WIRE = None
@@ -44,7 +44,7 @@ class Signals:
     """What is on all inputs of a module, channel 0 first; those that are not named are open.
 
     Unit: `cold_junction`, the temperature at the terminals, in degrees Celsius.
-    Errors: `EncodeError` for channels that are no tuple of signals, for a temperature that no module survives.
+    Errors: `InvalidValueError` for channels that are no tuple of signals, for a temperature that no module survives.
 
     >>> Signals.of(Unit.VOLT, 1.5, -2.0).channel(1), Signals().channel(7)
     (Signal(value=-2.0, unit=<Unit.VOLT: 'V'>), None)
@@ -55,9 +55,9 @@ class Signals:
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.channels, tuple) or not {Signal, type(OPEN_WIRE)}.issuperset(map(type, self.channels)):
-            raise EncodeError("channels", self.channels, "a tuple of signals and open wires", "1.11")
+            raise InvalidValueError("channels", self.channels, "a tuple of signals and open wires", "1.11")
         if not is_number(self.cold_junction) or not _COLDEST <= self.cold_junction <= _HOTTEST:
-            raise EncodeError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
+            raise InvalidValueError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
 
     @classmethod
     def of(cls, unit: Unit, *values: float, cold_junction: float = 25.0) -> "Signals":

@@ -13,7 +13,7 @@ from attrs import Attribute, evolve, field, fields_dict, frozen
 from i7000.arguments import LARGEST_FLOAT, check_clock, check_seconds, check_type
 from i7000.device.logger import Log
 from i7000.device.ram import Ram
-from i7000.errors import ArgumentError, EncodeError
+from i7000.errors import ArgumentError, InvalidValueError
 from i7000.models import Firmware, Model
 from i7000.profile import CHANNEL_OFFSETS, CJC_OFFSETS, RESPONSE_DELAYS, Profile
 from i7000.settings import (
@@ -46,7 +46,7 @@ Check = Callable[["Eeprom", "Attribute[Any]", Any], None]
 def _within(low: int, high: int) -> Check:
     def check(_: "Eeprom", attribute: "Attribute[Any]", value: object) -> None:
         if not is_int(value, low, high):
-            raise EncodeError(attribute.name, value, f"{low}..{high}", "3.4")
+            raise InvalidValueError(attribute.name, value, f"{low}..{high}", "3.4")
 
     return check
 
@@ -54,7 +54,7 @@ def _within(low: int, high: int) -> Check:
 def _a(kind: type) -> Check:
     def check(_: "Eeprom", attribute: "Attribute[Any]", value: object) -> None:
         if not isinstance(value, kind):
-            raise EncodeError(attribute.name, value, f"an instance of {kind.__name__}", "3.4")
+            raise InvalidValueError(attribute.name, value, f"an instance of {kind.__name__}", "3.4")
 
     return check
 
@@ -63,7 +63,7 @@ def _one_each(check: Check) -> Check:
     def check_all(eeprom: "Eeprom", attribute: "Attribute[Any]", values: tuple[int, ...]) -> None:
         inputs = inputs_of(eeprom.model)
         if not isinstance(values, tuple) or len(values) != inputs:
-            raise EncodeError(attribute.name, values, f"a tuple of {inputs}: {eeprom.model.value}", "1.3")
+            raise InvalidValueError(attribute.name, values, f"a tuple of {inputs}: {eeprom.model.value}", "1.3")
         for value in values:
             check(eeprom, attribute, value)
 
@@ -73,7 +73,7 @@ def _one_each(check: Check) -> Check:
 def _check_mask(eeprom: "Eeprom", attribute: "Attribute[Any]", mask: object) -> None:
     most = (1 << inputs_of(eeprom.model)) - 1
     if not is_int(mask, 0, most):
-        raise EncodeError(attribute.name, mask, f"0..{most}", "3.4")
+        raise InvalidValueError(attribute.name, mask, f"0..{most}", "3.4")
 
 
 def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
@@ -82,18 +82,18 @@ def _check_name(_: "Eeprom", __: "Attribute[Any]", name: str) -> None:
 
 def _check_protocol(eeprom: "Eeprom", attribute: "Attribute[Any]", protocol: Protocol) -> None:
     if not isinstance(protocol, Protocol) or protocol not in eeprom.model.protocols:
-        raise EncodeError(attribute.name, protocol, f"DCON: {eeprom.model.value} has no Modbus", "1.12")
+        raise InvalidValueError(attribute.name, protocol, f"DCON: {eeprom.model.value} has no Modbus", "1.12")
 
 
 def _check_line(_: "Eeprom", attribute: "Attribute[Any]", line: LineSettings) -> None:
     if not isinstance(line, LineSettings) or not isinstance(line.baud_rate, BaudRate):
-        raise EncodeError(attribute.name, line, "a baud rate code of 03..0A", "1.11")
+        raise InvalidValueError(attribute.name, line, "a baud rate code of 03..0A", "1.11")
 
 
 def _check_report(_: "Eeprom", attribute: "Attribute[Any]", report: ReportSettings) -> None:
     known = isinstance(report, ReportSettings) and isinstance(report.data_format, DataFormat)
     if not known or report.reserved:
-        raise EncodeError(attribute.name, report, "a data format of 0..2, no reserved bits", "1.11")
+        raise InvalidValueError(attribute.name, report, "a data format of 0..2, no reserved bits", "1.11")
 
 
 @frozen(slots=False)  # so that a copy is one dictionary
@@ -101,7 +101,7 @@ class Eeprom:
     """What a module remembers without power: the factory's settings where nothing else is said.
 
     Shape: per-channel tuples have an entry for each channel of the single-ended mode, where there is one.
-    Errors: `EncodeError` for what no module can have stored.
+    Errors: `InvalidValueError` for what no module can have stored.
     Manual: 1.9, 1.11, 2, 3.4; E35, E72, E83, E95.
     """
 
@@ -146,11 +146,11 @@ class Eeprom:
     def check_types(self, profile: Profile) -> None:
         """Refuse types of the channels that the connecting mode does not have; those of the others, `profile` refused.
 
-        Errors: `EncodeError`.
+        Errors: `InvalidValueError`.
         """
         check_type("profile", profile, Profile)
         if not all(map(profile.supports, self.type_codes[profile.channels :])):
-            raise EncodeError("type_codes", self.type_codes, profile.supported_types(), "1.11")
+            raise InvalidValueError("type_codes", self.type_codes, profile.supported_types(), "1.11")
 
 
 _STORED = fields_dict(Eeprom)
@@ -230,7 +230,7 @@ class State:
     def _profile(self) -> Profile:
         for name, value, kind in (("eeprom", self.eeprom, Eeprom), ("ram", self.ram, Ram)):
             if not isinstance(value, kind):
-                raise EncodeError(name, value, f"an instance of {kind.__name__}", "")
+                raise InvalidValueError(name, value, f"an instance of {kind.__name__}", "")
         return profile_of(self.eeprom, checksum=self.ram.checksum)
 
     inputs: Inputs = field(init=False, eq=False, repr=False)
@@ -248,8 +248,8 @@ class State:
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
         """Change the EEPROM.
 
-        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what no module can have stored;
-            only what changes is looked at.
+        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for what no module can have
+            stored; only what changes is looked at.
         """
         eeprom = _copied(self.eeprom, changes)
         if "model" in changes:  # by which nearly everything is measured
@@ -267,7 +267,7 @@ class State:
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
         """Change the RAM.
 
-        Errors: `ArgumentError` for a field that it does not have; `EncodeError` for what it cannot hold.
+        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for what it cannot hold.
         """
         ram = _copied(self.ram, changes)
         for name in changes:
@@ -313,7 +313,7 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
 
     Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
         Without power the data logger has recorded nothing.
-    Errors: `EncodeError` for a time that is not finite.
+    Errors: `InvalidValueError` for a time that is not finite.
     Manual: 1.12.2, A.1; E101, E110.
 
     >>> module = power_on(factory(Model.M_7019R), init_switch=True, now=0.0)

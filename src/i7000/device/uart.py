@@ -9,7 +9,7 @@ from itertools import pairwise
 from attrs import field
 
 from i7000.arguments import check_int, check_type, is_number
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.settings import BaudRate, LineSettings, is_int
 
@@ -24,7 +24,7 @@ class Uart:
     """How an end of a line sends and hears characters; every setting that a serial port can have.
 
     Unit: `rate` in bits per second.
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
     """
 
     rate: int = 9600
@@ -35,19 +35,19 @@ class Uart:
 
     def __attrs_post_init__(self) -> None:
         if not is_int(self.rate, 1, _FASTEST):
-            raise EncodeError("rate", self.rate, f"1..{_FASTEST} bits per second", "1.11")
+            raise InvalidValueError("rate", self.rate, f"1..{_FASTEST} bits per second", "1.11")
         if self.parity not in ("N", "E", "O", "M", "S"):
-            raise EncodeError("parity", self.parity, "N, E, O, M or S", "1.11")
+            raise InvalidValueError("parity", self.parity, "N, E, O, M or S", "1.11")
         if not is_number(self.stop_bits) or self.stop_bits not in (1, 1.5, 2):
-            raise EncodeError("stop_bits", self.stop_bits, "1, 1.5 or 2", "1.11")
+            raise InvalidValueError("stop_bits", self.stop_bits, "1, 1.5 or 2", "1.11")
         if not is_int(self.data_bits, 5, 8):
-            raise EncodeError("data_bits", self.data_bits, "5 to 8", "1.11")
+            raise InvalidValueError("data_bits", self.data_bits, "5 to 8", "1.11")
 
     @classmethod
     def of(cls, line: LineSettings) -> "Uart":
         """Tell the settings of a module's line.
 
-        Errors: `EncodeError` for a baud rate that is not defined.
+        Errors: `InvalidValueError` for a baud rate that is not defined.
 
         >>> Uart.of(LineSettings())
         Uart(rate=9600, parity='N', stop_bits=1, data_bits=8)
@@ -55,7 +55,7 @@ class Uart:
         check_type("line", line, LineSettings)
         rate = BaudRate.of(line.baud_rate)
         if not isinstance(rate, BaudRate):
-            raise EncodeError("baud_rate", f"{rate:02X}", "03..0A", "1.11")
+            raise InvalidValueError("baud_rate", f"{rate:02X}", "03..0A", "1.11")
         form = line.character_format
         return cls(rate.bits_per_second, parity=form.parity, stop_bits=form.stop_bits)
 
@@ -67,11 +67,11 @@ class Uart:
     def parity_bit(self, byte: int) -> int:
         """Tell the parity bit of a character; 0 without parity.
 
-        Errors: `EncodeError` for what is no byte.
+        Errors: `InvalidValueError` for what is no byte.
         """
         check_int("byte", byte)
         if not 0 <= byte <= 0xFF:
-            raise EncodeError("byte", byte, "00..FF", "1.11")
+            raise InvalidValueError("byte", byte, "00..FF", "1.11")
         return {"E": byte.bit_count() & 1, "O": ~byte.bit_count() & 1, "M": 1}.get(self.parity, 0)
 
     def sounds_like(self, other: "Uart") -> bool:

@@ -8,16 +8,16 @@ from contextlib import suppress
 
 from attrs import evolve
 
-from i7000 import dcon, modbus
+from i7000 import dcon, describe, modbus
 from i7000.dissect.dcon import DconReader
-from i7000.dissect.known import Known
+from i7000.dissect.known import Knowledge, Known
 from i7000.dissect.meaning import Meaning
 from i7000.dissect.modbus import ModbusReader
 from i7000.dissect.shapes import is_shaped
 from i7000.errors import DecodeError
 from i7000.message import Message
 
-__all__ = ["dcon_causes", "modbus_causes", "register_notes"]
+__all__ = ["address_notes", "dcon_causes", "modbus_causes", "register_notes"]
 
 _BLANK_FIELD = " " * 7
 _MOST_STRIPPED = 20
@@ -109,6 +109,12 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
         yield f"damaged? {cut} would have the CRC {_crc(wire[:-2])}"
     elif len(wire) >= modbus.SHORTEST_FRAME and modbus.seal(wire[:-1])[-2] == wire[-1] and _meant(reader, wire[:-1]):
         yield f"cut: {_meant(reader, wire[:-1])} without its last byte, {modbus.seal(wire[:-1])[-1]:02X}"
+    elif len(wire) >= modbus.SHORTEST_FRAME and sum(byte in _LIKE_NOISE for byte in wire) * 2 > len(wire):
+        yield "noise: another baud rate or parity?"
+
+
+_LIKE_NOISE = frozenset((0x00, *range(0x80, 0x100)))
+"""Bytes that most of noise is made of: a wrong rate makes long runs of equal bits."""
 
 
 def _tcp_header(wire: bytes) -> int | None:
@@ -134,6 +140,16 @@ def _crc(body: bytes) -> str:
 _NUMBERED = {"01": 0, "02": 10000, "03": 40000, "04": 30000, "05": 0, "06": 40000, "0F": 0, "10": 40000}
 """Where the numbers of the manual begin, by function."""
 _NUMBERS_A_KIND = 9999
+
+
+def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
+    """Yield that an address that no known module has is likely to be one in decimal, written as hex."""
+    if address is None or not knowledge.modules or address in knowledge.modules:
+        return
+    for other in knowledge.modules:
+        if int(str(other), 16) == address:
+            known = describe.address(other)
+            yield f"no module at {describe.address(address)} is known, but one at {known}: in decimal?"
 
 
 def register_notes(meaning: Meaning) -> Iterator[str]:

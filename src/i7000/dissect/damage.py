@@ -14,6 +14,8 @@ _DIRECTION = re.compile(
 )
 """What can stand beside a frame: a time, which is crossed out, and words for its direction."""
 _LEADING = "%#$~@!>?"
+_HEADING = bytes(range(256))
+"""What stands above the columns of a dump."""
 _FEWEST = 2
 _FEWEST_IN_A_WORD = 5
 """Bytes that are no plain number, where the protocol is unknown."""
@@ -36,7 +38,7 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             words = sum(byte.word for byte in run) == len(run)
             many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
             wire = wire_of(run)
-            heading = all(at == byte for at, byte in enumerate(wire))
+            heading = wire == _HEADING[: len(wire)]
             if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
                 return wire
     if protocol is Protocol.DCON:

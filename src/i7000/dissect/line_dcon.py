@@ -7,7 +7,7 @@ from typing import NamedTuple
 from attrs import evolve
 
 from i7000 import describe
-from i7000.dissect.causes import dcon_causes
+from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
@@ -33,7 +33,7 @@ def hear_dcon(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
 def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     address = _dcon_address(wire)
     read = _read_dcon(line.knowledge.of(address), wire, None)
-    before, notes = line.asked, read.notes
+    before, notes = line.asked, (*read.notes, *address_notes(address, line.knowledge))
     same = before is not None and before.wire == wire
     if before is not None and same:
         notes = (*notes, f"the same as {before.place.where}: an echo, or asked again")

@@ -6,7 +6,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import modbus
-from i7000.dissect.causes import modbus_causes, register_notes
+from i7000.dissect.causes import address_notes, modbus_causes, register_notes
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
 from i7000.dissect.known import Known
 from i7000.dissect.learn import learn, with_facts
@@ -67,7 +67,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     request, alone = reader.request(wire), reader.alone(wire)
     if request.meaning:
         note = _doubt(alone.meaning, response.error, asked, in_step=line.in_step)
-        notes = (*((note,) if note else ()), *register_notes(request.meaning))
+        notes = (*((note,) if note else ()), *register_notes(request.meaning), *address_notes(address, line.knowledge))
         answered = address != modbus.BROADCAST
         line = evolve(line, requested=Asked(place, wire, address, request.meaning), in_step=not answered)
         return line, heard(Direction.REQUEST, request.meaning, notes=notes)

@@ -11,9 +11,9 @@ from typing import Any, overload
 
 import serial
 
-from i7000 import Profile, dcon, modbus
+from i7000 import Noise, Profile, dcon, modbus
 from i7000.examples.task import RD, RM, open_port, program, read_task
-from i7000.host import AnyCommand, Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
+from i7000.host import AnyCommand, Bus, Ended, Outcome, Rejected, Sent, Transmit, next_deadline, receive, send
 
 __all__ = ["Driver", "main"]
 
@@ -26,6 +26,7 @@ class Driver:
         self.loop, self.turn = asyncio.get_running_loop(), asyncio.Lock()
         self.outcome: asyncio.Future[Outcome[Any]] = self.loop.create_future()
         self.timer: asyncio.TimerHandle | None = None
+        self.refused: Rejected | Noise | None = None
         self.loop.add_reader(port.fileno(), self._called)
 
     @overload
@@ -63,6 +64,8 @@ class Driver:
                 self.port.write(event.wire)
             elif isinstance(event, Ended):
                 self.outcome.set_result(event)
+            elif isinstance(event, Rejected | Noise):
+                self.refused = event
         if self.timer:
             self.timer.cancel()
         deadline = next_deadline(self.bus)
@@ -72,7 +75,8 @@ class Driver:
 async def _main(arguments: Sequence[str] | None) -> int:
     task = read_task(arguments)
     with open_port(task) as port:
-        return task.show(await Driver(port, task.bus).ask(task.command, task.profile))
+        driver = Driver(port, task.bus)
+        return task.show(await driver.ask(task.command, task.profile), driver.refused)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

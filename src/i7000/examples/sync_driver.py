@@ -11,9 +11,9 @@ from typing import Any, overload
 
 import serial
 
-from i7000 import Profile, dcon, modbus
+from i7000 import Noise, Profile, dcon, modbus
 from i7000.examples.task import RD, RM, open_port, program, read_task
-from i7000.host import Bus, Ended, Outcome, Sent, Transmit, next_deadline, receive, send
+from i7000.host import Bus, Ended, Outcome, Rejected, Sent, Transmit, next_deadline, receive, send
 
 __all__ = ["Driver", "main"]
 
@@ -24,6 +24,7 @@ class Driver:
     def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
         self.port = port
         self.bus = bus
+        self.refused: Rejected | Noise | None = None
 
     @overload
     def ask(self, command: dcon.Command[RD], profile: Profile) -> Outcome[RD]: ...
@@ -47,6 +48,8 @@ class Driver:
                     self.port.write(event.wire)
                 elif isinstance(event, Ended):
                     outcome = event
+                elif isinstance(event, Rejected | Noise):
+                    self.refused = event
         return outcome
 
 
@@ -54,7 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Read the inputs of a module."""
     task = read_task(arguments)
     with open_port(task) as port:
-        return task.show(Driver(port, task.bus).ask(task.command, task.profile))
+        driver = Driver(port, task.bus)
+        return task.show(driver.ask(task.command, task.profile), driver.refused)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 import serial
 from attrs import evolve, frozen
 
-from i7000 import BaudRate, DecodeError, LineSettings, Model, Profile, Reading, TypeCode, dcon, modbus
-from i7000.host import Answered, Bus, Outcome
+from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Reading, TypeCode, dcon, modbus
+from i7000.host import Answered, Bus, Outcome, Rejected
 from i7000_cli import program
 
 __all__ = ["RD", "RM", "Task", "open_port", "program", "read_task"]
@@ -28,10 +28,16 @@ class Task:
     profile: Profile
     command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters
 
-    def show(self, outcome: Outcome[Any]) -> int:
-        """Print what came of it; the exit code of the program is 0 for an answer."""
+    def show(self, outcome: Outcome[Any], refused: Rejected | Noise | None) -> int:
+        """Print the outcome, and the exit code of the program: 0 for an answer.
+
+        `refused` is the last that came in and was no answer: it often says why there is none.
+        """
         if not isinstance(outcome, Answered):
             print(outcome)  # noqa: T201 - what a program prints
+            if refused is not None:
+                reason = refused.reason if isinstance(refused, Rejected) else refused.fault.value
+                print(f"heard instead: {refused.wire!r}: {reason}")  # noqa: T201
             return 1
         try:
             readings = self._readings(outcome.response)

@@ -18,7 +18,7 @@ from attrs import evolve, field
 
 from i7000 import dcon, modbus
 from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_seconds, check_type, is_number
-from i7000.errors import DecodeError, EncodeError, Noise, StateError
+from i7000.errors import DecodeError, InvalidValueError, Noise, StateError
 from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
 from i7000.host.exchange import Exchange, answers, finish, split
@@ -38,26 +38,30 @@ _SHORTEST_SILENCE = 0.00175
 
 @frozen(kw_only=True)
 class Policy:
-    """What a host allows for.
+    """How long a host waits, and how often it asks again.
 
+    Shape: `retries` is how often a request without an answer is sent again: the module may then carry it out again.
+        `turnaround` is the time from the last character of a request to the first of its response: what the module
+        takes, which the manual does not say, its response delay (40488), and what adapters, operating system and
+        network add. `grace` is how long the line is left silent after a deadline: a later response can be mistaken.
     Unit: seconds.
-    Errors: `EncodeError` for what is no time or no number of times.
+    Range: 0 or more.
+    Errors: `InvalidValueError` beyond the range.
+
+    >>> Policy()
+    Policy(retries=2, turnaround=0.2, grace=0.2)
     """
 
     retries: int = 2
-    """How often a request that has no answer is sent again: the module may then carry it out again."""
     turnaround: float = 0.2
-    """From the last character of a request to the first of its response: what the module takes, which the manual does
-    not say, its response delay (40488), and what adapters, operating system and network add."""
     grace: float = 0.2
-    """How long the line is left silent after a deadline; a response later than that can be mistaken."""
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.retries, int) or isinstance(self.retries, bool) or self.retries < 0:
-            raise EncodeError("retries", self.retries, "0 or more", "")
+            raise InvalidValueError("retries", self.retries, "0 or more", "")
         for name, value in (("turnaround", self.turnaround), ("grace", self.grace)):
             if not is_number(value) or value < 0:
-                raise EncodeError(name, value, "seconds, 0 or more", "")
+                raise InvalidValueError(name, value, "seconds, 0 or more", "")
 
 
 @frozen
@@ -81,7 +85,7 @@ class Bus(Generic[R]):
     """A line with modules, R being the response that is waited for; a new one is ``Bus[Any]()``.
 
     Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the rest is what happened.
-    Errors: `EncodeError` for a field of another type, a baud rate that is not defined, and a time that is not finite.
+    Errors: `InvalidValueError` for a field of another type, an undefined baud rate, and a time that is not finite.
     """
 
     line: LineSettings = field(factory=LineSettings)
@@ -107,11 +111,11 @@ class Bus(Generic[R]):
         for name, kinds in _KINDS.items():
             if not isinstance(getattr(self, name), kinds):
                 allowed = " or ".join(kind.__name__ for kind in kinds)
-                raise EncodeError(name, getattr(self, name), f"an instance of {allowed}", "")
+                raise InvalidValueError(name, getattr(self, name), f"an instance of {allowed}", "")
         for name in _TIMES:
             check_seconds(name, getattr(self, name))
         if not isinstance(self.line.baud_rate, BaudRate):
-            raise EncodeError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
+            raise InvalidValueError("baud_rate", f"{self.line.baud_rate:02X}", "03..0A", "1.11")
 
     @property
     def character_time(self) -> float:
@@ -155,8 +159,8 @@ def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tu
     r"""Open a request, and tell the bytes to be written now: none if a pause is owed, then `wake` tells them later.
 
     Special: of a broadcast, `profile` tells only whether it has a checksum. What had begun to come in is forgotten.
-    Errors: `EncodeError` if the module does not have the command, and for a time that is not finite; `StateError` if
-        the request before has no outcome yet, and for a time before that of the last call.
+    Errors: `EncodeError` if the module does not have the command; `InvalidValueError` for a time that is not finite;
+        `StateError` if the request before has no outcome yet, and for a time before that of the last call.
     Manual: 2, 3.
 
     >>> from i7000 import Model
@@ -190,7 +194,7 @@ def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R
     """Take what has come in, all of it or any piece, and tell what it means.
 
     Shape: the events are in the order in which things happened.
-    Errors: `EncodeError` for a time that is not finite; `StateError` for one before that of the last call.
+    Errors: `InvalidValueError` for a time that is not finite; `StateError` for one before that of the last call.
     Manual: 2, 3.
     """
     check_type("bus", bus, Bus)

@@ -34,21 +34,21 @@ R = TypeVar("R")
 
 @frozen
 class Transmit:
-    """Bytes to be written to the line now."""
+    """Bytes to be written to the line now: `wire`."""
 
     wire: bytes
 
 
 @frozen
 class Ended:
-    """What all outcomes are."""
+    """What all outcomes are: the end of a request, `command`."""
 
     command: AnyCommand
 
 
 @frozen
 class Answered(Ended, Generic[R]):
-    """The outcome of a request that was carried out."""
+    """The outcome of a request that was carried out: `command`, and the `response` to it."""
 
     response: R
 
@@ -57,6 +57,7 @@ class Answered(Ended, Generic[R]):
 class Declined(Ended):
     """The outcome of a request that the module understood and did not carry out.
 
+    Shape: `command`, and the `response`: a `i7000.dcon.Refused` or a `i7000.modbus.ExceptionResponse`.
     Manual: 2, 3.
     """
 
@@ -65,27 +66,29 @@ class Declined(Ended):
 
 @frozen
 class TimedOut(Ended):
-    """The outcome of a request that has no answer, however often it was sent."""
+    """The outcome of a request, `command`, that has no answer, however often it was sent."""
 
 
 @frozen
 class Sent(Ended):
-    """The outcome of a request to all modules, which none answers: it has gone out, and its pause is over."""
+    """The outcome of a request to all modules, `command`: it has gone out, and its pause is over; none answers."""
 
 
 @frozen
 class Rejected:
-    """A whole frame that came in time and is not the answer: of another module, or to another command."""
+    """A whole frame that came in time and is not the answer: of another module, or to another command.
+
+    Shape: `wire` is the frame, `fault` what is wrong with it as an answer, `reason` the same for people.
+    """
 
     wire: bytes
     fault: Fault
     reason: str
-    """What was expected, for people."""
 
 
 @frozen
 class Late:
-    """A whole frame that came when no answer was due, dropped: a response after its deadline, or one too many."""
+    """A whole frame, `wire`, that came when no answer was due, dropped: a late response, or one too many."""
 
     wire: bytes
 

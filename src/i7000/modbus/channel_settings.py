@@ -271,7 +271,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
         bits = FILTER_BIT * profile.has_filter | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(
-                "settings", f"{self.settings:02X}", f"bits of {bits:02X}: {profile.model.value}", self.section
+                "settings", f"{self.settings:02X}", f"only bits of {bits:02X}h: {profile.model.value}", self.section
             )
 
 

@@ -13,7 +13,7 @@ from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus import channel_settings, cold_junction, module_settings, standard
 from i7000.modbus.channel_settings import ReadChannelMask, ReadMiscellaneousSettings
 from i7000.modbus.cold_junction import ReadCjcOffset
-from i7000.modbus.frame import seal, unseal
+from i7000.modbus.frame import sealed, unseal
 from i7000.modbus.request import (
     BROADCAST,
     EXCEPTION_BIT,
@@ -84,7 +84,7 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
                     f"{profile.name} has no {message.title} by Modbus",
                 )  # fmt: skip
             message.check(profile)
-    return seal(message.layout.encode(message, profile))
+    return sealed(message.layout.encode(message, profile))
 
 
 def is_answered(request: Request[Any]) -> bool:

@@ -55,8 +55,11 @@ def crc16(data: bytes) -> int:
     >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
     'CCF1'
     """
-    if data.__class__ is not bytes:
-        data = as_bytes("data", data)
+    return crc_of(data if data.__class__ is bytes else as_bytes("data", data))
+
+
+def crc_of(data: bytes) -> int:
+    """Compute the CRC-16, as `crc16` does, without a look at the argument."""
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
         _TWO[:] = [crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs]
@@ -77,9 +80,12 @@ def seal(body: bytes) -> bytes:
     >>> seal(bytes.fromhex("010400000008")).hex()
     '010400000008f1cc'
     """
-    if body.__class__ is not bytes:
-        body = as_bytes("body", body)
-    return body + _PACK(crc16(body))
+    return sealed(body if body.__class__ is bytes else as_bytes("body", body))
+
+
+def sealed(body: bytes) -> bytes:
+    """Make a frame of address and PDU, as `seal` does, without a look at the argument."""
+    return body + _PACK(crc_of(body))
 
 
 def unseal(frame: bytes) -> bytes:
@@ -92,7 +98,7 @@ def unseal(frame: bytes) -> bytes:
     if not SHORTEST_FRAME <= len(frame) <= LONGEST_FRAME:
         allowed = f"{SHORTEST_FRAME} to {LONGEST_FRAME} bytes"
         raise DecodeError(Fault.LENGTH, frame, min(len(frame), LONGEST_FRAME), allowed=allowed, section="3")
-    if crc16(frame):
-        crc = crc16(frame[:-2]).to_bytes(2, "little").hex()
+    if crc_of(frame):
+        crc = crc_of(frame[:-2]).to_bytes(2, "little").hex()
         raise DecodeError(Fault.CRC, frame, len(frame) - 2, field="crc", allowed=crc, section="3")
     return frame[:-2]

@@ -1,4 +1,4 @@
-"""One statement of a PDU -> its encoder, its decoder, the check of its values, and its length.
+"""One statement of a PDU -> its constructor, its encoder, its decoder, and its length.
 
 A message class has its PDU in `pdu`: tokens with a blank between. Two hex digits are a literal byte, ``00`` a reserved
 one. Any other token is a field of the class, or follows from the sequence at the end: ``count`` is its number of items
@@ -10,16 +10,16 @@ Laws: the constructor takes exactly the values that a field's `Item` accepts; wh
 
 >>> from i7000 import modbus
 >>> print(modbus.SetTypeCode.layout.source)
-def check(m):
-    address = m.address
+def construct(self, address, channel, type_code):
     if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
         refuse('address', address)
-    channel = m.channel
     if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
         refuse('channel', channel)
-    type_code = m.type_code
     if not accepts_type_code(type_code):
         refuse('type_code', type_code)
+    set_address(self, address)
+    set_channel(self, channel)
+    set_type_code(self, type_code)
 <BLANKLINE>
 def encode(m, p):
     return pack(m.address, 70, 8, 0, m.channel, m.type_code)
@@ -47,7 +47,7 @@ from typing import Any, NamedTuple
 
 from attrs import fields
 
-from i7000.compiled import check_names, check_source, compiled
+from i7000.compiled import compiled, constructor_names, constructor_source
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.frozen import frozen
 from i7000.modbus.frame import WordStructs
@@ -119,8 +119,8 @@ class Layout:
     """The form of that token, or empty."""
     source: str
     """Of the three functions."""
-    check: Callable[[Any], None]
-    """Refuse values that no message of this class can have."""
+    construct: Callable[..., None]
+    """The constructor: it refuses values that no message of this class can have."""
     encode: Callable[[Any, Profile | None], bytes]
     """Message and profile -> address and PDU; `EncodeError` for a mask that has no profile, or is too long for it."""
     decode: Callable[[bytes, Profile], Any]
@@ -135,15 +135,14 @@ class Layout:
             "Fault": Fault, "message": message, "new": object.__new__, "pack": form.pack, "unpack": form.unpack_from,
             "pack_words": _pack_words, "WORDS": _WORDS, "pack_bits": _pack_bits,
             "unpack_bits": _unpack_bits, "pack_mask": _pack_mask, "mask_bytes": _mask_bytes,
-            "fail": _fail, **check_names(statement.items, message.section),
+            "fail": _fail, **constructor_names(message, statement.items),
         }  # fmt: skip
         for name, item in statement.items.items():
             names |= {f"read_{name}": item.read, f"item_{name}": item}
-            names[f"set_{name}"] = getattr(message, name).__set__
-        lines = (*_checker(statement), "", *_encoder(statement), "", *_decoder(statement, form.size))
+        lines = (*_constructor(statement), "", *_encoder(statement), "", *_decoder(statement, form.size))
         source = "\n".join(lines)
         made = compiled(source, f"{message.__module__}.{message.__name__}", names)
-        functions = (made["check"], made["encode"], made["decode"])
+        functions = (made["construct"], made["encode"], made["decode"])
         return cls(tokens_of(message.pdu), form.size, statement.tail.form, source, *functions)
 
 
@@ -155,13 +154,16 @@ class _Statement(NamedTuple):
     """The tokens before the one that has a length of its own."""
     tail: Token
     """That one; it has no form if there is none."""
+    keywords: frozenset[str]
+    """The fields that are given by keyword only."""
 
     @classmethod
     def of(cls, message: Any) -> "_Statement":  # noqa: ANN401 - a message class
         items = {field.name: field.type.__metadata__[0] for field in fields(message)}
         tokens = tokens_of(message.pdu)
         tail = next((token for token in tokens if not token.width), Token("", ""))
-        return cls(items, tuple(token for token in tokens if token.width), tail)
+        keywords = frozenset(field.name for field in fields(message) if field.kw_only)
+        return cls(items, tuple(token for token in tokens if token.width), tail, keywords)
 
     def named(self, role: str) -> str:
         """The field that has a role, or an empty string."""
@@ -193,13 +195,16 @@ _PACKERS = {"words": "pack_words({})", "bits": "pack_bits({})", "mask": "pack_ma
 _BYTES = {"words": "2 * len({})", "bits": "len({}) + 7 >> 3"}
 
 
-def _checker(statement: _Statement) -> Iterator[str]:
-    yield from check_source(statement.items)
+def _constructor(statement: _Statement) -> Iterator[str]:
+    together = []
     first = statement.named("first")
     if first:
         count = statement.named("count") or f"len({statement.tail.name})"
-        yield f"    if {first} + {count} > {_ADDRESSES}:"
-        yield f"        refuse('count', {count}, 'none beyond address 65535')"
+        together = [
+            f"    if {first} + {count} > {_ADDRESSES}:",
+            f"        refuse('count', {count}, 'none beyond address 65535')",
+        ]
+    yield from constructor_source(statement.items, statement.keywords, together)
 
 
 def _encoder(statement: _Statement) -> Iterator[str]:
@@ -221,7 +226,7 @@ def _encoder(statement: _Statement) -> Iterator[str]:
 
 def _decoder(statement: _Statement, size: int) -> Iterator[str]:
     """Make the decoder: it looks at the length first, then at ranges, counts, reserved bytes and single values."""
-    items, fixed, tail = statement
+    items, fixed, tail, _ = statement
     names = [token.name or f"literal_{at}" for at, token in enumerate(fixed)]
     places = [sum(token.width for token in fixed[:at]) for at in range(len(fixed))]
     extra = " + mask_bytes(p)" if tail.form == "mask" else ""

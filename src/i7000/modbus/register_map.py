@@ -11,7 +11,7 @@ from typing import Any
 from attrs import evolve, field
 
 from i7000.arguments import as_tuple, check_type
-from i7000.errors import DecodeError, EncodeError, Fault, shown
+from i7000.errors import DecodeError, EncodeError, Fault, InvalidValueError, shown
 from i7000.frozen import frozen
 from i7000.modbus.register_values import counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
@@ -251,15 +251,15 @@ class Plan:
     def decode(self, responses: Sequence[Items | ExceptionResponse]) -> dict[str, Any]:
         """Tell the values by name; an exception is the value of all that it refused.
 
-        Errors: `EncodeError` for another number of responses than requests; `DecodeError` as for `RegisterMap.decode`,
-            and for what does not answer its request, silence (None) included: `Fault.FUNCTION`, `ADDRESS`,
-            `COUNT`.
+        Errors: `InvalidValueError` for another number of responses than requests; `DecodeError` as for
+            `RegisterMap.decode`, and for what does not answer its request, silence (None) included:
+            `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
         """
         responses = as_tuple("responses", responses)
         for response in responses:
             check_type("responses", response, Response, optional=True)
         if len(responses) != len(self.requests):
-            raise EncodeError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
+            raise InvalidValueError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
         for request, response in zip(self.requests, responses, strict=True):
             _check_response(request, response)
         values: dict[str, Any] = {}

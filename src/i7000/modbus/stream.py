@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from i7000.arguments import as_bytes, check_type
 from i7000.errors import DecodeError, Fault, Noise
 from i7000.modbus.codec import REQUESTS
-from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc16
+from i7000.modbus.frame import LONGEST_FRAME, SHORTEST_FRAME, crc_of
 from i7000.modbus.layout import Layout
 from i7000.modbus.request import BROADCAST, EXCEPTION_BIT, LAST_ADDRESS, MODULE_SETTINGS, Request
 from i7000.profile import Profile
@@ -146,7 +146,7 @@ def split(
         lengths = _BY_START[side][function][buffer[2] if size > 2 else _MISSING]
         if lengths and size < lengths[0]:  # It is still coming in, as in most calls where bytes come one by one.
             return (), buffer
-        if lengths and size == lengths[0] and not crc16(buffer):  # It is one frame, as most of a log are.
+        if lengths and size == lengths[0] and not crc_of(buffer):  # It is one frame, as most of a log are.
             return (buffer,), b""
     if request is not None:
         check_type("request", request, Request)
@@ -228,7 +228,7 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
     """Where the frame that begins here ends: here if there is none; None if that is not known yet."""
     for length in lengths:
         if at + length <= len(buffer):
-            if not crc16(buffer[at : at + length]):
+            if not crc_of(buffer[at : at + length]):
                 return at + length
         elif not final:
             return None
@@ -238,7 +238,7 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
 def _ends_as_frame(buffer: bytes, at: int) -> bool:
     """Whether all that is left is one frame, of whatever function."""
     whole = SHORTEST_FRAME <= len(buffer) - at <= LONGEST_FRAME and buffer[at] <= LAST_ADDRESS
-    return whole and not crc16(buffer[at:])
+    return whole and not crc_of(buffer[at:])
 
 
 _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)

@@ -7,7 +7,7 @@ from random import Random
 
 from attrs import fields_dict, frozen
 
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 
 __all__ = ["Faults", "Piece", "Transfer"]
 
@@ -37,7 +37,7 @@ class Faults:
     """How a line fails.
 
     Unit: probabilities from 0 to 1; times in seconds.
-    Errors: `EncodeError` for what is none.
+    Errors: `InvalidValueError` for what is none.
     """
 
     echo: bool = False
@@ -61,7 +61,7 @@ class Faults:
                 continue
             most = 60.0 if name == "late_by" else 1.0
             if not 0 <= value <= most:
-                raise EncodeError(name, value, f"0..{most:g}", "")
+                raise InvalidValueError(name, value, f"0..{most:g}", "")
 
     def carried(self, data: bytes, chance: Random) -> tuple[bytes, tuple[str, ...]]:
         """Tell what becomes of bytes on their way, and what happened in words."""

@@ -20,9 +20,9 @@ from i7000 import (
     BaudRate,
     CharacterFormat,
     DataFormat,
-    EncodeError,
     Filter,
     Firmware,
+    InvalidValueError,
     LineSettings,
     ModbusDataFormat,
     Model,
@@ -59,7 +59,7 @@ class Odd:
         return self.words
 
 
-FAULTS = (WrongError, EncodeError, BaseValidationError)
+FAULTS = (WrongError, InvalidValueError, BaseValidationError)
 """What `structured` raises."""
 
 
@@ -72,7 +72,7 @@ def told(error: Exception) -> tuple[str, str, str]:
         if not isinstance(error, BaseValidationError):
             break
         error = error.exceptions[0]
-    if isinstance(error, EncodeError):
+    if isinstance(error, InvalidValueError):
         place += f".{error.field}"
         words = error.reason or f"cannot be {short(error.value)}", f"{error.allowed} (manual {error.section})"
     else:
@@ -147,7 +147,7 @@ def _moment(value: Any, _: object) -> float:  # noqa: ANN401
 def _firmware(value: Any, _: object) -> Firmware:  # noqa: ANN401
     try:
         return Firmware(value)
-    except EncodeError as error:
+    except InvalidValueError as error:
         raise _no(value, error.allowed) from None
 
 

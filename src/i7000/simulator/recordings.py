@@ -16,7 +16,7 @@ from math import inf, isfinite, nan
 from operator import ge
 from typing import TextIO
 
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.simulator.files import open_regular
 from i7000.simulator.sources import Recorded
 from i7000.type_codes import Unit
@@ -43,7 +43,7 @@ def read_recording(path: str | os.PathLike[str], units: Mapping[str, Unit]) -> d
     Shape: a line with the names of the columns: ``seconds``, numbers of channels, `COLD_JUNCTION`. Every further line
         is a row with one value for each column: a number with a decimal point, or ``open``; seconds rise. Empty lines
         do not count. At most `MOST_ROWS` rows and `MOST_BYTES` bytes.
-    Errors: `EncodeError` that names the line; `UnsuitableFileError`; `OSError`.
+    Errors: `InvalidValueError` that names the line; `UnsuitableFileError`; `OSError`.
     """
     with (
         open_regular(path, MOST_BYTES) as file,
@@ -63,7 +63,7 @@ def _recorded(text: TextIO, units: Mapping[str, Unit]) -> dict[str, Recorded]:
             found[name].fromlist(column)
         _check_seconds(seconds, lines)
     if not seconds:
-        raise EncodeError("rows", 0, "one at least", "", f"line {line}: no rows follow")
+        raise InvalidValueError("rows", 0, "one at least", "", f"line {line}: no rows follow")
     return {name: Recorded(seconds, found[name], unit) for name, unit in units.items()}
 
 
@@ -75,7 +75,9 @@ def _header(text: TextIO, names: Collection[str]) -> tuple[int, list[str]]:
     for name in names:
         if header.count(name) != 1:
             found = ", ".join(header)[:_SHOWN] or "none"
-            raise EncodeError("columns", header, f"one of them {name}", "", f"line {line}: the columns are {found}")
+            raise InvalidValueError(
+                "columns", header, f"one of them {name}", "", f"line {line}: the columns are {found}"
+            )
     return line, header
 
 
@@ -88,7 +90,7 @@ def _blocks(text: TextIO, line: int) -> Iterator[tuple[int, str]]:
             yield line, whole + end
             line += whole.count("\n") + 1
         if len(rest) > _BLOCK:
-            raise EncodeError("line", line, f"{_BLOCK} characters", "", f"line {line}: it is too long")
+            raise InvalidValueError("line", line, f"{_BLOCK} characters", "", f"line {line}: it is too long")
     if rest:
         yield line, rest + "\n"
 
@@ -121,7 +123,7 @@ class _Columns:
         """Return what is in the columns that are read."""
         if len(cells) != len(self._header):
             allowed = f"one for each of {len(self._header)} columns, decimals with a point"
-            raise EncodeError("row", cells, allowed, "", f"line {line}: there are {len(cells)} values")
+            raise InvalidValueError("row", cells, allowed, "", f"line {line}: there are {len(cells)} values")
         named = zip(self._header, cells, strict=True)
         return {name: _number(line, name, cell) for name, cell in named if name in self.names}
 
@@ -150,7 +152,7 @@ def _number(line: int, name: str, cell: str) -> float:
     number = float(cell) if _NUMBER.fullmatch(cell) else inf
     if not isfinite(number):
         allowed = "a number as 12.5 or -1e-3" + ("" if name == "seconds" else ", or open")
-        raise EncodeError(name, cell, allowed, "", f"line {line}: {name} cannot be {cell!r:.{_SHOWN}}")
+        raise InvalidValueError(name, cell, allowed, "", f"line {line}: {name} cannot be {cell!r:.{_SHOWN}}")
     return number
 
 
@@ -158,18 +160,22 @@ def _cells(line: int, text: str) -> list[str]:
     try:
         return [cell.strip() for row in csv.reader([text], strict=True) for cell in row]
     except csv.Error as error:
-        raise EncodeError("line", line, "values with commas between", "", f"line {line}: {error}") from None
+        raise InvalidValueError("line", line, "values with commas between", "", f"line {line}: {error}") from None
 
 
 def _check_seconds(seconds: "array[float]", lines: Sequence[int]) -> None:
     """Refuse times, the last of which are those of `lines`, that do not rise or are too many."""
     if len(seconds) > MOST_ROWS:
-        raise EncodeError("rows", len(seconds), f"{MOST_ROWS} rows", "", f"line {lines[-1]}: there are too many rows")
+        raise InvalidValueError(
+            "rows", len(seconds), f"{MOST_ROWS} rows", "", f"line {lines[-1]}: there are too many rows"
+        )
     start = len(seconds) - len(lines)
     if start == 0 and lines and seconds[0] < 0:
-        raise EncodeError("seconds", seconds[0], "0 or more", "", f"line {lines[0]}: seconds cannot be {seconds[0]}")
+        raise InvalidValueError(
+            "seconds", seconds[0], "0 or more", "", f"line {lines[0]}: seconds cannot be {seconds[0]}"
+        )
     last = seconds[max(0, start - 1) :]
     if any(map(ge, last, islice(last, 1, None))):
         at = next(at for at in range(max(1, start), len(seconds)) if seconds[at - 1] >= seconds[at])
         reason = f"line {lines[at - start]}: seconds cannot be {seconds[at]}"
-        raise EncodeError("seconds", seconds[at], f"more than the {seconds[at - 1]:g} before", "", reason)
+        raise InvalidValueError("seconds", seconds[at], f"more than the {seconds[at - 1]:g} before", "", reason)

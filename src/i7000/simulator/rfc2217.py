@@ -12,7 +12,7 @@ from typing import Any
 from attrs import evolve, frozen
 
 from i7000.device import Uart
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.simulator.simulator import Host
 from i7000.simulator.tcp import Connection
 from i7000.simulator.telnet import DO, WILL, Negotiation, Options, Telnet, escaped, subnegotiation
@@ -88,7 +88,7 @@ class Port:
         uart: Any = self._host.uart
         if len(value) == setting.size:
             number = int.from_bytes(value)
-            with suppress(EncodeError):
+            with suppress(InvalidValueError):
                 wanted = number if setting.values is None else setting.values.get(number)
                 self._host.uart = uart = evolve(uart, **{setting.name: wanted})
         now = getattr(uart, setting.name)

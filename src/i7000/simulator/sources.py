@@ -18,7 +18,7 @@ from typing import TypeAlias
 from attrs import Attribute, field, frozen
 
 from i7000.device import OPEN_WIRE, Eeprom, Signal, Signals
-from i7000.errors import EncodeError
+from i7000.errors import InvalidValueError
 from i7000.type_codes import TypeCode, Unit
 
 __all__ = [
@@ -50,17 +50,17 @@ _REMEMBERED = 1024
 
 def _finite(source: object, attribute: "Attribute[float]", value: float) -> None:
     if not isfinite(value):
-        raise EncodeError(attribute.name, value, f"a finite number, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, f"a finite number, {type(source).__name__}", "")
 
 
 def _not_negative(source: object, attribute: "Attribute[float]", value: float) -> None:
     if not 0 <= value < inf:
-        raise EncodeError(attribute.name, value, f"0 or more, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, f"0 or more, {type(source).__name__}", "")
 
 
 def _positive(source: object, attribute: "Attribute[float]", value: float) -> None:
     if not 0 < value < inf:
-        raise EncodeError(attribute.name, value, f"more than 0 seconds, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, f"more than 0 seconds, {type(source).__name__}", "")
 
 
 # --- sources ----------------------------------------------------------------------------------------------------------
@@ -91,7 +91,7 @@ class Ramp:
     """From `low` up towards `high` in `period`, and at once back to `low`.
 
     Unit: `period` in seconds.
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
 
     >>> Ramp(0, 10, 60, Unit.VOLT).sample(150)
     Signal(value=2.5, unit=<Unit.VOLT: 'V'>)
@@ -104,7 +104,7 @@ class Ramp:
 
     def __attrs_post_init__(self) -> None:
         if self.high < self.low:
-            raise EncodeError("high", self.high, f"{self.low:g} or more, Ramp", "")
+            raise InvalidValueError("high", self.high, f"{self.low:g} or more, Ramp", "")
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
@@ -123,7 +123,7 @@ class Sine:
     """Up and down around `mean`, which it starts from.
 
     Unit: `period` in seconds.
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
 
     >>> [Sine(5, 2, 1.2, Unit.VOLT).sample(number).value for number in (0, 3, 9)]
     [5.0, 7.0, 3.0]
@@ -152,7 +152,7 @@ class Noise:
     """Normally distributed around `mean`, anew at each sample; what is rarer than 4 deviations is cut off.
 
     Special: the same seed has the same noise.
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
 
     >>> Noise(5, 0.1, Unit.VOLT, seed=1).sample(7) == Noise(5, 0.1, Unit.VOLT, seed=1).sample(7)
     True
@@ -189,7 +189,7 @@ class Recorded:
 
     Shape: `seconds` of each row, ascending, and as many `values`, nan where the wire is open. An array is kept as it
         is; do not change it.
-    Errors: `EncodeError`.
+    Errors: `InvalidValueError`.
 
     >>> from math import nan
     >>> recorded = Recorded((0, 2.5), (1.5, nan), Unit.VOLT)
@@ -203,13 +203,13 @@ class Recorded:
 
     def __attrs_post_init__(self) -> None:
         if not self.seconds or len(self.seconds) != len(self.values):
-            raise EncodeError("values", self.values, "as many as seconds, one at least", "")
+            raise InvalidValueError("values", self.values, "as many as seconds, one at least", "")
         if not (self.seconds[0] >= 0 and self.seconds[-1] < inf):
-            raise EncodeError("seconds", self.seconds, "0 or more", "")
+            raise InvalidValueError("seconds", self.seconds, "0 or more", "")
         if not all(map(lt, self.seconds, islice(self.seconds, 1, None))):
-            raise EncodeError("seconds", self.seconds, "each more than the one before", "")
+            raise InvalidValueError("seconds", self.seconds, "each more than the one before", "")
         if not isfinite(sum(self.values)) and inf in map(abs, self.values):
-            raise EncodeError("values", self.values, "finite numbers, or nan for an open wire", "")
+            raise InvalidValueError("values", self.values, "finite numbers, or nan for an open wire", "")
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
@@ -241,7 +241,8 @@ def _phase(number: int, period: float) -> float:
 class Sources:
     """What is connected to a module, channel 0 first; inputs that are not named are open.
 
-    Errors: `EncodeError` for a cold junction that is ever something else than a temperature that `Signals` can have.
+    Errors: `InvalidValueError` for a cold junction that is ever something else than a temperature that `Signals` can
+        have.
 
     >>> sources = Sources((Ramp(0, 10, 60, Unit.VOLT), OPEN))
     >>> sources.at(15.07).channels, sources.at(15.07) is sources.at(15.0)
@@ -263,10 +264,10 @@ class Sources:
         """Tell what is there: the last sample, and the same object while nothing changes.
 
         Time: seconds from the start.
-        Errors: `EncodeError` for what is no such time.
+        Errors: `InvalidValueError` for what is no such time.
         """
         if not 0 <= seconds < inf:
-            raise EncodeError("seconds", seconds, "0 or more", "")
+            raise InvalidValueError("seconds", seconds, "0 or more", "")
         if self._constant is not None:
             return self._constant
         return _remembered_sample(self, floor(min(seconds, _LATEST) * SAMPLES_A_SECOND))
@@ -289,10 +290,10 @@ def _one(signals: Signals) -> Signals:
 def _temperature(signal: Signal | None) -> float:
     """Tell the temperature of a cold junction.
 
-    Errors: `EncodeError`, also from `Signals`, which knows the limits.
+    Errors: `InvalidValueError`, also from `Signals`, which knows the limits.
     """
     if signal is None or signal.unit is not Unit.CELSIUS:
-        raise EncodeError(COLD_JUNCTION, signal, "a temperature in degC", "2.11")
+        raise InvalidValueError(COLD_JUNCTION, signal, "a temperature in degC", "2.11")
     return Signals(cold_junction=signal.value).cold_junction
 
 

@@ -1,0 +1,24 @@
+"""The short words of the terminal for a few settings, beside the names of their enumerations."""
+
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any
+
+from i7000 import Filter, Protocol
+from i7000.cli.words import member
+
+__all__ = ["FILTERS", "PROTOCOLS", "chosen"]
+
+PROTOCOLS = {"dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+FILTERS = {"50hz": Filter.REJECT_50_HZ, "60hz": Filter.REJECT_60_HZ} | {one.name.lower(): one for one in Filter}
+_SHORT: Mapping[type[Enum], Mapping[str, Enum]] = {Protocol: PROTOCOLS, Filter: FILTERS}
+
+
+def chosen(text: str, kind: type[Enum]) -> Any:  # noqa: ANN401 - a member of it
+    """Read a member of an enumeration: its short word, its name, or its number.
+
+    >>> chosen("rtu", Protocol).name, chosen("modbus_rtu", Protocol).name, chosen("50hz", Filter).name
+    ('MODBUS_RTU', 'MODBUS_RTU', 'REJECT_50_HZ')
+    """
+    short = _SHORT.get(kind, {})
+    return short[text.lower()] if text.lower() in short else member(text, kind)

@@ -1,0 +1,140 @@
+"""The input of ``i7000 decode`` -> what is read of it: frames with their meanings, and lines without.
+
+Laws: pure; what is read of a line, packet or chunk depends on those before it, never on those after it.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from datetime import UTC, datetime
+from enum import Enum
+from typing import NamedTuple
+
+from attrs import evolve
+
+from i7000.dissect import Heard, Kind, Knowledge, Line, Piece, Place, flush, hear, hear_frame, pieces
+from i7000.dissect.capture import Damage, Packet, packets
+from i7000.dissect.stream import looks_like
+from i7000.settings import Protocol
+
+__all__ = ["Missing", "Read", "of_capture", "of_lines", "of_stream"]
+
+_STAMP = re.compile(
+    r"(?<![\w:.])(?:\d{4}[-/.]\d\d[-/.]\d\d[T ])?\d\d?:\d\d:\d\d(?:[.,]\d{1,9})?(?:Z|[-+]\d\d:?\d\d)?(?![\w:])"
+)
+_SILENCE = 0.5
+"""Seconds between two packets after which what is unfinished has ended."""
+
+
+class Missing(Enum):
+    """What is there in place of a frame."""
+
+    NOTHING = "no frame in this line"
+    REPEAT = "a frame that was there already, and was not on the wire again"
+    DAMAGE = "a file that cannot be read on"
+
+
+class Read(NamedTuple):
+    """A frame, or a line, packet or piece of a stream without one."""
+
+    number: int
+    """Records are counted from 1."""
+    line: int
+    """The line of a log, the packet of a capture file, or the frame of a stream: the first that has it."""
+    last: int
+    text: str
+    """What was written there."""
+    time: str | None
+    """When, as it is written there, or in UTC."""
+    heard: Heard | None
+    missing: Missing | None = None
+    """Why nothing was heard there."""
+    note: str | None = None
+    """The same in words."""
+
+    @property
+    def understood(self) -> bool:
+        """Whether nothing is wrong with it."""
+        return self.missing is not Missing.DAMAGE if self.heard is None else self.heard.understood
+
+
+def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
+    """Read a log."""
+    line = Line(knowledge, protocol)
+    for number, piece in enumerate(pieces(lines, protocol), 1):
+        start, last, text, kind, wire, same_as = piece
+        heard, missing, note = None, None, None
+        if same_as is not None:
+            missing, note = Missing.REPEAT, f"the same as line {same_as}, printed once more"
+        elif kind is None:
+            missing, note = Missing.NOTHING, Missing.NOTHING.value
+        else:
+            place = Place(number, f"line {start}")
+            line, heard = hear_frame(line, wire, _protocol_of(piece) if protocol is None else protocol, place)
+        yield Read(number, start, last, _shown(text), _time(text), heard, missing, note)
+
+
+def _protocol_of(piece: Piece) -> Protocol:
+    if piece.kind is Kind.DAMAGED:
+        return looks_like(piece.wire)
+    return Protocol.DCON if piece.kind is Kind.DCON else Protocol.MODBUS_RTU
+
+
+def _shown(text: str) -> str:
+    """Return a line without its end; bytes that are no UTF-8 are escaped."""
+    text = text.rstrip("\r\n")
+    return text if text.isascii() else text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+
+
+def _time(text: str) -> str | None:
+    if ":" not in text:
+        return None
+    stamp = _STAMP.search(text)
+    return stamp and stamp[0]
+
+
+def of_stream(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
+    """Read what was on a line; an empty piece is a silence."""
+    line = Line(knowledge, protocol)
+    for piece in data:
+        line, found = hear(line, piece) if piece else flush(line)
+        yield from (_frame(heard, heard.place.number, None) for heard in found)
+    line, found = flush(line)
+    yield from (_frame(heard, heard.place.number, None) for heard in found)
+
+
+def of_capture(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
+    """Read a pcap or pcapng file; a frame can be in several packets, and a packet can have several frames."""
+    line = Line(knowledge, protocol)
+    before: Packet | None = None
+    for packet in packets(data):
+        if isinstance(packet, Damage):
+            line = evolve(line, count=line.count + 1)
+            at = before.number if before else 0
+            yield Read(line.count, at, at, f"byte {packet.offset}", None, None, Missing.DAMAGE, packet.reason)
+            continue
+        if before is not None and _is_apart(before, packet):
+            line, found = flush(line, f"packet {before.number}")
+            yield from (_frame(heard, before.number, before) for heard in found)
+        line, found = hear(line, packet.wire, f"packet {packet.number}")
+        yield from (_frame(heard, packet.number, packet) for heard in found)
+        before = packet
+    line, found = flush(line)
+    yield from (_frame(heard, before.number if before else 0, before) for heard in found)
+
+
+def _is_apart(before: Packet, packet: Packet) -> bool:
+    """Return whether two packets cannot have parts of one frame."""
+    turned = before.outbound is not None and packet.outbound is not None and before.outbound != packet.outbound
+    late = before.time is not None and packet.time is not None and packet.time - before.time > _SILENCE
+    return turned or late
+
+
+def _frame(heard: Heard, line: int, packet: Packet | None) -> Read:
+    wire = heard.wire
+    text = wire.hex(" ").upper()
+    if heard.protocol is Protocol.DCON:
+        text = wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+    time = None
+    if packet is not None and packet.time is not None:
+        time = datetime.fromtimestamp(packet.time, UTC).isoformat()
+    return Read(heard.place.number, line, line, text, time, heard)
