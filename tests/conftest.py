@@ -1,4 +1,7 @@
-"""How hard Hypothesis searches: `dev`, `ci` where ``CI`` is set, ``--hypothesis-profile=fuzz`` for hours; fixtures."""
+"""Fixtures, and how hard Hypothesis searches.
+
+Profiles: `dev`; `ci` where ``CI`` is set; `fast` for ``python -m tests --fast``; `fuzz`, asked for by name, for hours.
+"""
 
 import os
 import signal
@@ -13,6 +16,7 @@ __all__ = ["plain", "run"]
 
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, print_blob=True, database=None)
+settings.register_profile("fast", settings.get_profile("ci"), max_examples=6)
 settings.register_profile("fuzz", settings.get_profile("dev"), max_examples=20_000, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "dev")
 

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from i7000.cli import source
 from i7000.cli.source import LONGEST_LINE, Counted, Lines
+from tests.simulation import MAIN
 from tests.terminal import Run
 
-SCRIPT = "import sys; from i7000.cli import main; sys.exit(main())"
 PEAK = """
 import resource, sys
 from i7000.cli import main
@@ -164,7 +164,7 @@ def test_numbers_are_counted_once_and_the_first_are_named() -> None:
 
 def test_a_log_is_decoded_as_it_arrives() -> None:
     with subprocess.Popen(  # noqa: S603
-        [sys.executable, "-c", SCRIPT, "decode"], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        [sys.executable, "-c", MAIN, "decode"], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
@@ -203,9 +203,9 @@ def test_a_long_line_may_cut_frames_so_it_is_not_all_understood(run: Run) -> Non
 
 LOGS = {
     "zeros": b"\0" * (1 << 20),
-    "no line ends": b"01 04 00 00 00 08 F1 CC " * (1 << 16),
+    "no line ends": b"01 04 00 00 00 08 F1 CC " * (1 << 15),
     "bad lines": b"foo\n" * 50_000,
-    "carriage returns": b"\r" * (1 << 20),
+    "carriage returns": b"\r" * (1 << 18),
     "good lines": b"$012\n!01050600\n01 04 00 00 00 08 F1 CC\n" * 5_000,
 }
 

@@ -17,6 +17,8 @@ from i7000.device.uart import hear_at
 from i7000.dissect import pieces
 from tests.calls import CALLS
 
+pytestmark = pytest.mark.no_cover
+
 SHORT, TIMES = 64 * 1024, 8
 GENEROUS = 2
 """What a byte of the long input may take, of that of the short one."""

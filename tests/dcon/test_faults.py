@@ -12,6 +12,8 @@ from i7000 import DecodeError, dcon
 from tests.spec.nearest import CHOICES, COMMANDS, MODELS, command_of, has, pieces, response_fault, width
 from tests.vectors import AVAILABILITY, MESSAGES, profile_of
 
+pytestmark = pytest.mark.no_cover
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 

@@ -350,6 +350,7 @@ def lived_through(bus: Bus, ear: Ear, pieces: Iterable[bytes], on: Signals) -> t
     return [it for it in (*told, *heard) if not isinstance(it.frame, Noise)], bus
 
 
+@pytest.mark.no_cover
 @given(st.data(), buses(), device.signals())
 def test_any_pieces_give_the_same_frames_in_the_same_order_and_the_same_modules(
     data: st.DataObject, bus: Bus, on: Signals
@@ -362,6 +363,7 @@ def test_any_pieces_give_the_same_frames_in_the_same_order_and_the_same_modules(
     assert whole == lived_through(bus, Ear(), data.draw(chunkings(wire)), on)
 
 
+@pytest.mark.no_cover
 @given(st.data(), buses(), device.signals())
 def test_nothing_that_a_host_sends_at_any_line_settings_raises(data: st.DataObject, bus: Bus, on: Signals) -> None:
     uart = Uart(data.draw(st.sampled_from((300, 9600, 19200, 115200))), parity=data.draw(st.sampled_from("NEOMS")))
@@ -373,6 +375,7 @@ def test_nothing_that_a_host_sends_at_any_line_settings_raises(data: st.DataObje
     assert all(heard.module is not None for heard in told if heard.answer is not None)
 
 
+@pytest.mark.no_cover
 @given(st.data(), buses(), device.signals(), st.floats(0, 1e6))
 def test_who_is_not_asked_only_notices_the_time(data: st.DataObject, bus: Bus, on: Signals, later: float) -> None:
     frame = data.draw(sent_to(bus))

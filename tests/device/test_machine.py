@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
+import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule
@@ -11,6 +12,8 @@ from i7000 import Firmware, Model, Unit
 from i7000.device import Signal, Signals, advance, factory, power_on, step
 from tests.device import modbus_oracle
 from tests.device.oracle import HAVE, MODELS, VERSIONS, Oracle, sealed
+
+pytestmark = pytest.mark.no_cover
 
 # --- what is said -----------------------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from attrs import asdict, evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,6 +13,8 @@ from i7000.device import Bus, Eeprom, LogCommand, Ram, Signals, State, advance, 
 from i7000.device.measurement import fields, words
 from i7000.strategies import device
 from i7000.strategies.dcon import damaged
+
+pytestmark = pytest.mark.no_cover
 
 NOW = 1000.0
 FREQUENT = settings(max_examples=settings().max_examples * 3)

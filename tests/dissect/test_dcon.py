@@ -97,6 +97,7 @@ def agree(frame: bytes, asked: bytes | None, known: Known, reader: DconReader) -
         assert bool(found) == bool(expected)
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize(("known", "reader"), READERS, ids=lambda it: "" if isinstance(it, DconReader) else str(it))
 def test_groups_of_profiles_read_what_each_of_them_reads(known: Known, reader: DconReader) -> None:
     for command, response in EXCHANGES[:: 1 if known.model else 7]:  # all models are many
@@ -111,6 +112,7 @@ COMMANDS = sorted({command for command, _ in EXCHANGES if command and is_command
 FRAMES = sorted({frame for exchange in EXCHANGES for frame in exchange if frame})
 
 
+@pytest.mark.no_cover
 @given(
     st.sampled_from(READERS), st.sampled_from(FRAMES), st.sampled_from([None, *COMMANDS]), st.integers(0, 60),
     st.sampled_from(b"0129AF+-. !>$#"),

@@ -60,6 +60,7 @@ def test_a_line_without_a_frame_has_none(text: str) -> None:
     assert find(text) == ()
 
 
+@pytest.mark.no_cover
 @given(
     st.sampled_from(SPELLINGS), st.sampled_from(BEFORE), st.sampled_from(AFTER),
     exchanges().flatmap(lambda it: st.sampled_from((it.command_wire, it.response_wire))) | modbus_wires(),

@@ -88,6 +88,7 @@ def test_every_beginning_of_a_frame_waits_for_its_end(side: Side) -> None:
             )
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("side", Side)
 def test_the_neighbours_of_a_damaged_frame_are_found(side: Side) -> None:
     first, last = seal(bytes.fromhex("010600020003")), seal(bytes.fromhex("7b05000cff00"))
@@ -100,6 +101,7 @@ def test_the_neighbours_of_a_damaged_frame_are_found(side: Side) -> None:
             assert rest == b""
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("side", Side)
 def test_half_a_frame_hides_nothing_of_what_follows(side: Side) -> None:
     whole = seal(bytes.fromhex("ee0600020003"))

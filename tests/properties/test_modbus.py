@@ -24,6 +24,8 @@ from i7000.strategies.modbus import (
 )
 from tests.properties.outcomes import decoded, encoded
 
+pytestmark = pytest.mark.no_cover
+
 FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every class."""
 

@@ -11,6 +11,8 @@ from i7000 import DecodeError, Fault, Noise, Profile, modbus
 from i7000.modbus import Side
 from i7000.strategies.modbus import DAMAGES, Exchange, chunkings, exchanges, frames, profiles, streams
 
+pytestmark = pytest.mark.no_cover
+
 # --- what the CRC notices, and what it cannot -------------------------------------------------------------------------
 
 SHORT = frames().filter(lambda frame: len(frame) <= 8)

@@ -13,6 +13,8 @@ from i7000.modbus import Access, Area, Kind, Plan, Register, RegisterMap
 from i7000.strategies import profiles
 from i7000.strategies.modbus import plans, register_items, register_maps, register_values, registers
 
+pytestmark = pytest.mark.no_cover
+
 MODELS = [model for model in Model if Protocol.MODBUS_RTU in model.protocols]
 FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every model."""

@@ -21,6 +21,8 @@ from i7000.readings import (
 )
 from i7000.strategies import readings, word_readings
 
+pytestmark = pytest.mark.no_cover
+
 each_type = pytest.mark.parametrize("code", TypeCode, ids=lambda code: f"{code:02X}")
 WORDS = range(0x10000)
 TYPES = st.sampled_from(TypeCode)

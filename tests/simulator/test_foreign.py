@@ -116,6 +116,7 @@ def test_what_happened_to_a_frame_of_the_other_protocol_is_told_with_it(spoken: 
     assert [fault.partition(" ")[2] for fault in told.faults] == ["bytes of noise before"]
 
 
+@pytest.mark.no_cover
 @given(st.lists(strategies.device.eeproms(), min_size=1, max_size=3), st.binary(max_size=300) | st.just(ASKED))
 def test_whatever_is_heard_only_frames_of_a_protocol_that_nobody_speaks_are_found(
     eeproms: list[object], wire: bytes

@@ -26,6 +26,7 @@ def path(tmp_path: Path) -> Path:
 # --- round trips ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.no_cover
 @given(st.lists(eeproms(), max_size=3).map(tuple))
 def test_what_was_saved_is_loaded(tmp_path_factory: pytest.TempPathFactory, modules: tuple[Eeprom, ...]) -> None:
     path = tmp_path_factory.getbasetemp() / "round-trip.json"
@@ -36,6 +37,7 @@ def test_what_was_saved_is_loaded(tmp_path_factory: pytest.TempPathFactory, modu
     assert [it.firmware.text for it in load(path)] == [it.firmware.text for it in modules]
 
 
+@pytest.mark.no_cover
 @given(states())
 def test_what_a_module_remembers_after_what_it_has_heard_is_loaded(
     tmp_path_factory: pytest.TempPathFactory, state: State

@@ -225,6 +225,7 @@ print(rows, time, (after.ru_maxrss - before.ru_maxrss) / 1024)
 """
 
 
+@pytest.mark.no_cover
 def test_a_million_rows_take_little_time_and_memory(path: Path) -> None:
     """As much as counting to 40 million, and 40 MB: a start in 3 s within 100 MB, on any machine."""
     with path.open("w") as file:

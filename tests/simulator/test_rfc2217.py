@@ -216,6 +216,7 @@ def test_what_is_negotiated_with_a_host_that_does_not_read_is_not_kept() -> None
     assert asyncio.run(negotiate()) < (1 << 16) + 100
 
 
+@pytest.mark.no_cover
 def test_a_subnegotiation_without_an_end_is_not_kept() -> None:
     async def negotiate() -> Any:
         connection = Rfc2217Connection(Simulator([I_7018]), "host", set())
