@@ -151,7 +151,7 @@ class Unwritable:
 
 
 def test_a_value_that_cannot_be_written_is_refused_all_the_same() -> None:
-    with pytest.raises(ArgumentError, match=r"frame cannot be a value that cannot be written, of Unwritable"):
+    with pytest.raises(ArgumentError, match=r"frame cannot be a value of Unwritable whose repr\(\) fails"):
         meanings(Unwritable())  # type: ignore[arg-type]
 
 
@@ -222,7 +222,7 @@ def test_what_is_no_time_is_refused(call: Callable[[float], Any], now: Any) -> N
 
 @each_clock
 def test_a_clock_that_goes_back_is_refused(call: Callable[[float], Any]) -> None:
-    with pytest.raises(StateError, match=r"the clock went back: now is 4\.5, and it was 5\.0 before"):
+    with pytest.raises(StateError, match=r"the clock went back from 5\.0 to 4\.5: use a monotonic clock"):
         call(4.5)
 
 

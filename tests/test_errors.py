@@ -59,8 +59,9 @@ def test_a_long_frame_is_kept_whole_and_shown_in_part() -> None:
 def test_a_number_of_any_size_can_be_told(value: object) -> None:
     error = EncodeError("address", value, "00..FF", "2")
 
-    assert str(error).startswith("address cannot be a number too long to be written, of or in ")
-    assert repr(error).startswith("EncodeError('address', a number too long")
+    assert str(error).startswith("address cannot be a value of ")
+    assert "with a number too long to print: 00..FF" in str(error)
+    assert repr(error).startswith("EncodeError('address', a value of ")
     assert error.value == value
 
 

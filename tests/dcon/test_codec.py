@@ -47,13 +47,13 @@ def configuration(
         (
             dcon.SetChannelTypeCode(0x01, 0, TypeCode.V_10),
             Profile(Model.M_7017R, firmware=Firmware("B3.8")),
-            r"M-7017R with firmware B3\.8 has no type code of single channels: .*M-7017R from B3\.9.*, manual 2\.15",
+            r"M-7017R with firmware B3\.8 has no type code of a channel: .*M-7017R from B3\.9.*, manual 2\.15",
         ),
-        (dcon.ReadAnalogInput(0x01, 8), I_7017, r"channel cannot be 8: 0\.\.7: I-7017, manual 2\.4"),
+        (dcon.ReadAnalogInput(0x01, 8), I_7017, r"channel cannot be 8: 0\.\.7 on I-7017, manual 2\.4"),
         (
             dcon.SetChannelTypeCode(0x01, 0, 0x30),
             M_7019R,
-            "type_code cannot be '30': MV_15 MV_50 .*: M-7019R, manual 2.15",
+            "type_code cannot be '30': MV_15 MV_50 .* on M-7019R, manual 2.15",
         ),
         (dcon.ReadChannelTypeCode(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelZero(0x01, 8), M_7019R, "channel cannot be 8"),
@@ -84,7 +84,7 @@ def configuration(
             Profile(Model.M_7019R, firmware=Firmware("B2.6"), type_codes=()),
             "filter cannot be 'REJECT_50_HZ'",
         ),
-        (dcon.AnalogInputs(("+00.000",) * 7), I_7017, "values cannot be .*: 8 engineering fields: I-7017"),
+        (dcon.AnalogInputs(("+00.000",) * 7), I_7017, "values cannot be .*: 8 engineering fields on I-7017"),
         (dcon.AnalogInputs(("4C53",) * 8), I_7017, "values cannot be"),
         (dcon.AnalogInputsHex(("+00.000",) * 8), I_7017, "8 hex fields"),
         (dcon.SynchronizedData(0x01, ("4C53",) * 8, first_reading=True), M_7019R, "values cannot be"),
@@ -307,7 +307,7 @@ def test_a_number_of_a_model_is_a_name(model: Model) -> None:
 @pytest.mark.parametrize("name", ["0506", "A2.0", "+0010"])
 def test_a_name_that_could_not_be_read_back_is_not_sent_and_not_taken(name: str) -> None:
     with pytest.raises(
-        EncodeError, match=r"not the text of another answer \(2, 4 or 6 hex digits, a version, \.\.\.\), manual"
+        EncodeError, match=r"not the text of another response \(2, 4 or 6 hex digits, a version, \.\.\.\), manual"
     ):
         dcon.encode(dcon.SetModuleName(0x01, name), I_7017)
 

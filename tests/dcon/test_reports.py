@@ -44,7 +44,7 @@ def test_a_single_reading_has_the_type_of_its_channel() -> None:
     "profile", [Profile(Model.I_7018BL), Profile(Model.M_7019Z)], ids=["unknown types", "ten channels"]
 )
 def test_readings_need_the_types_of_all_channels(profile: Profile) -> None:
-    with pytest.raises(DecodeError, match="a profile that has a type code for each channel"):
+    with pytest.raises(DecodeError, match="a profile with a type code for each channel"):
         dcon.readings(dcon.AnalogInputs(("+00.000",) * 8), profile)
 
 
@@ -168,5 +168,5 @@ def test_hex_readings_are_hex_whatever_the_data_format_is() -> None:
 
 
 def test_fields_are_as_many_as_channels() -> None:
-    with pytest.raises(EncodeError, match="readings cannot be 1: 8, as many as type codes"):
+    with pytest.raises(EncodeError, match="readings cannot be 1: 8, one for each type code"):
         dcon.fields([Reading(0.0, Unit.VOLT)], I_7017)

@@ -108,7 +108,7 @@ def test_answers_that_collide_are_garbled_unless_they_are_equal() -> None:
 def test_every_module_has_its_signals() -> None:
     line = bus(A01=Model.I_7018)
 
-    with pytest.raises(InvalidValueError, match="signals cannot be 0: 1, those of each module"):
+    with pytest.raises(InvalidValueError, match="signals cannot be 0: 1, one for each module"):
         line.step(dcon.seal(b"#01", checksum=False), [], 0.0)
 
 
