@@ -4,13 +4,13 @@ One row a command: the facts, from the command and its response.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from attrs import evolve
 
 from i7000 import dcon, modbus
-from i7000.dissect.heard import Line
-from i7000.dissect.known import Fact, Known, Module, fact_words
+from i7000.dissect.known import Fact, Knowledge, Known, Module, fact_words
 from i7000.dissect.meaning import Item, Meaning
 from i7000.dissect.registers import items
 from i7000.models import Firmware, Model
@@ -20,29 +20,57 @@ from i7000.type_codes import TypeCode
 __all__ = ["learn", "with_facts"]
 
 
+_REMEMBERED = 256
+"""Answers of which it is kept what they show, and to whom it is new."""
+
+
 def learn(
-    line: Line, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
-) -> tuple[Line, tuple[str, ...]]:
-    """Learn from a response; and say what of it contradicts what was known before."""
-    module = line.knowledge.of(address)
-    facts = list(_facts_of(meaning, module.known, where)) if meaning.command is not None else []
+    knowledge: Knowledge, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
+) -> tuple[Knowledge, tuple[str, ...]]:
+    """Learn from a response, and return what of it contradicts what was known before.
+
+    Shape: `where` it stands; `shown`, the facts that its form alone shows.
+    """
+    if meaning.command is None and not shown:
+        return knowledge, ()
+    module = knowledge.of(address)
+    facts, contradictions, moved = _news(meaning, module, shown)
+    if facts:
+        learned = module
+        for fact in facts:
+            learned = learned.learn(evolve(fact, where=where))
+        if learned is not module:
+            knowledge = knowledge.put(address, learned)
+    if moved is not None and moved != address:
+        knowledge = knowledge.put(moved, knowledge.of(address))
+    return knowledge, contradictions
+
+
+class _News(NamedTuple):
+    """What a response shows to those who know a module."""
+
+    facts: tuple[Fact, ...]
+    """Those that are new."""
+    contradictions: tuple[str, ...]
+    moved: int | None
+    """The new address."""
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _news(meaning: Meaning, module: Module, shown: tuple[str, ...]) -> _News:
+    facts = list(_facts_of(meaning, module.known)) if meaning.command is not None else []
     profile = meaning.fit.profiles[0]
-    facts += [Fact(name, getattr(profile, name), where=where) for name in shown if name != "firmware"]
-    learned, wrong = module, []
+    facts += [Fact(name, getattr(profile, name)) for name in shown if name != "firmware"]
+    new, contradictions = [], []
     for fact in facts:
         before = module.facts.get(fact.name)
-        if before is not None and before.value == fact.value:
-            continue
         contradiction = _contradiction(module, before, fact)
         if contradiction:
-            wrong.append(contradiction)
-        learned = learned.learn(fact)
-    if learned is not module:
-        line = evolve(line, knowledge=line.knowledge.put(address, learned))
+            contradictions.append(contradiction)
+        if before is None or before.value != fact.value or (fact.changed and not before.changed):
+            new.append(fact)
     moved = _new_address(meaning) if meaning.command is not None else None
-    if moved is not None and moved != address:
-        line = evolve(line, knowledge=line.knowledge.put(moved, line.knowledge.of(address)))
-    return line, tuple(wrong)
+    return _News(tuple(new), tuple(contradictions), moved)
 
 
 def _contradiction(module: Module, before: Fact | None, fact: Fact) -> str | None:
@@ -82,22 +110,20 @@ def with_facts(meaning: Meaning, module: Module) -> Meaning:
 _Pairs = Iterator[tuple[str, Any]]
 
 
-def _facts_of(meaning: Meaning, known: Known, where: str) -> Iterator[Fact]:
-    """Yield the facts that a response shows together with its command; `where` it stands."""
+def _facts_of(meaning: Meaning, known: Known) -> Iterator[Fact]:
+    """Yield the facts that a response shows together with its command."""
     command, response = meaning.command, meaning.message
     if isinstance(response, dcon.Refused | modbus.ExceptionResponse):
         return
     for rows, changed in ((_READ, False), (_SET, True)):
         row = rows.get(type(command))
         if row is not None and not getattr(response, "result", 0):
-            yield from (
-                Fact(name, value, where=where, changed=changed) for name, value in row(command, response, known)
-            )
+            yield from (Fact(name, value, changed=changed) for name, value in row(command, response, known))
     if isinstance(command, dcon.SetConfiguration) and meaning.checksum is not None:
-        yield Fact("checksum", meaning.checksum, where=where, changed=True)
+        yield Fact("checksum", meaning.checksum, changed=True)
     changed = isinstance(command, _WRITES)
     for item in _sent(meaning) if changed else meaning.items:
-        yield from (Fact(name, value, where=where, changed=changed) for name, value in _of_item(item, known))
+        yield from (Fact(name, value, changed=changed) for name, value in _of_item(item, known))
 
 
 def _new_address(meaning: Meaning) -> int | None:
