@@ -12,7 +12,7 @@ from typing import Any
 
 from attrs import fields
 
-from i7000 import LineSettings, ReportSettings, dcon, modbus
+from i7000 import LineSettings, ReportSettings, Status, dcon, modbus
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
@@ -139,8 +139,59 @@ def meaning_record(meaning: Meaning) -> Record:
 
 
 def _meaning_json(meaning: Meaning) -> str:
-    """Return the keys of a meaning as a part of a JSON object."""
-    return _json(meaning_record(meaning))[1:-1]
+    """Return the keys of a meaning as a part of a JSON object.
+
+    Special: of readings, of which a log has most, only what differs is encoded each time.
+    """
+    if not meaning.readings:
+        return _json(meaning_record(meaning))[1:-1]
+    before, after = _around_readings(meaning)
+    fields = meaning.fields
+    values = _json({field.name: _plain(field.value) for field in fields})
+    words = _json({field.name: field.text for field in fields if field.name not in VALUES})
+    readings = ", ".join(map(_reading_json, meaning.readings))
+    items = ", ".join(map(_item_json, meaning.items))
+    return (
+        f'{before}, "fields": {values}, "explained": {words}, "readings": [{readings}], "registers": [{items}], {after}'
+    )
+
+
+def _around_readings(meaning: Meaning) -> tuple[str, str]:
+    """Return the keys before and after those of the readings, which all reports of a module share."""
+    key = (type(meaning.message), type(meaning.command), meaning.fit, meaning.assumed)
+    found = _AROUND.get(key)
+    if found is None:
+        if len(_AROUND) >= _REMEMBERED:
+            _AROUND.clear()
+        record = meaning_record(meaning)
+        keys = list(record)
+        parts = (keys[: keys.index("fields")], keys[keys.index("errata") :])
+        before, after = ({name: record[name] for name in part} for part in parts)
+        found = _AROUND[key] = _json(before)[1:-1], _json(after)[1:-1]
+    return found
+
+
+_AROUND: dict[tuple[Any, ...], tuple[str, str]] = {}
+
+
+def _reading_json(reading: ChannelReading) -> str:
+    channel, text, status, type_code, value, unit = reading
+    if status is not Status.OK or channel is None or type_code is None:
+        return _json(_reading(reading))
+    return (
+        f'{{"channel": {channel}, "text": "{text}", "status": "ok", "type_code": {type_code:d}, '
+        f'"value": {value!r}, "unit": "{unit}"}}'
+    )
+
+
+def _item_json(item: Item) -> str:
+    number, name, channel, value, unit, text, reading, _ = item
+    if reading is None or reading.status is not Status.OK or channel is None:
+        return _json(_item(item))
+    return (
+        f'{{"number": "{number}", "name": "{name}", "channel": {channel}, "value": {value!r}, "unit": "{unit}", '
+        f'"status": "ok", "text": "{text}"}}'
+    )
 
 
 _remembered_json = lru_cache(maxsize=_REMEMBERED)(_meaning_json)

@@ -31,7 +31,7 @@ def learn(
 
     Shape: `where` it stands; `shown`, the facts that its form alone shows.
     """
-    if meaning.command is None and not shown:
+    if not shown and type(meaning.command) not in _TEACHING:
         return knowledge, ()
     module = knowledge.of(address)
     facts, contradictions, moved = _news(meaning, module, shown)
@@ -222,6 +222,9 @@ _SET: Mapping[type | None, _Row] = {
 
 # --- registers --------------------------------------------------------------------------------------------------------
 
+_AREAS_READ = (
+    modbus.ReadCoils, modbus.ReadDiscreteInputs, modbus.ReadHoldingRegisters, modbus.SetModuleAddress,
+)  # fmt: skip
 _WRITES = (modbus.WriteSingleCoil, modbus.WriteSingleRegister, modbus.WriteMultipleCoils, modbus.WriteMultipleRegisters)
 
 
@@ -249,3 +252,5 @@ _REGISTERS: Mapping[str | None, Callable[[Item, Known], _Pairs]] = {
     "channel_mask": lambda item, _: iter((("mask", item.value),)),
 }
 """The registers that decide how others, and frames, are read."""
+_TEACHING = frozenset((*_READ, *_SET, *_WRITES, *_AREAS_READ))
+"""The commands whose responses show something."""
