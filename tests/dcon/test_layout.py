@@ -93,7 +93,7 @@ LINE, REPORT = LineSettings(BaudRate.BAUD_9600, CharacterFormat.E81), ReportSett
         (
             dcon.SetConfiguration(0x01, 0x1A, TypeCode.K, LINE, REPORT),
             {
-                "new_address": "1A",
+                "new_address": "1Ah (26)",
                 "type_code": "0F, thermocouple K, -270..1372 degC",
                 "line_settings": "86, 9600 baud, E81",
                 "report_settings": "42, hex, checksum, normal mode, 60 Hz rejected",

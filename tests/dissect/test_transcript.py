@@ -94,13 +94,13 @@ def test_a_line_without_a_frame_is_a_piece_without_one(text: str) -> None:
 def test_a_part_before_a_line_with_a_frame_stays_a_piece_of_its_own() -> None:
     part, command, other, response = pieces_of("RX 01 04 02", "$012", "RX 01 04 02", "ok 24 30 31 32 0D ok")
 
-    assert (part.kind, command.wire, other.kind, response.wire) == (None, b"$012\r", None, b"$012\r")
+    assert (part.kind, command.wire, other.kind, response.wire) == (Kind.DAMAGED, b"$012\r", Kind.DAMAGED, b"$012\r")
 
 
 def test_noise_behind_a_cut_frame_is_no_part_of_it() -> None:
     found = pieces_of("RX 01 04 00 00 00 01", "RX 31 CA FF", "port closed")
 
-    assert [(it.number, it.wire) for it in found] == [(1, REQUEST[:6]), (2, b""), (3, b"")]
+    assert [(it.number, it.wire) for it in found] == [(1, REQUEST[:6]), (2, b"1\xca\xff"), (3, b"")]
 
 
 def test_parts_longer_than_a_frame_are_given_up_from_the_first_on() -> None:

@@ -18,7 +18,7 @@ from i7000 import CjcUpdate, Firmware, LineSettings, Protocol, TypeCode, modbus
         (modbus.ExceptionResponse(1, 0x03, 7), {"function": "03", "exception_code": "07, not defined"}),
         (modbus.ModuleName(1, bytes.fromhex("00701900")), {"name": "00701900, M-7019 series"}),
         (modbus.ModuleName(1, bytes.fromhex("00701952")), {"name": "00701952"}),
-        (modbus.SetModuleAddress(1, 26), {"new_address": "1A"}),
+        (modbus.SetModuleAddress(1, 26), {"new_address": "1Ah (26)"}),
         (modbus.ModuleAddressResult(1, 0), {"result": "00, done"}),
         (modbus.CommunicationSettingsResult(1, 0, 1), {"line_result": "00, done", "protocol_result": "01, not done"}),
         (

@@ -754,7 +754,7 @@ def test_channels_are_a_range(channels: Any) -> None:
         (M_7017, "host_watchdog_enabled", False, "no"),
         (M_7017, "host_watchdog_timeout", 2.5, "2.5 s"),
         (M_7017, "response_delay", 30, "30 ms"),
-        (M_7017, "module_address", 26, "1A"),
+        (M_7017, "module_address", 26, "1Ah (26)"),
         (M_7017, "module_type_code", TypeCode.V_10, "08, -10..10 V"),
         (M_7017, "module_type_code", 0xFF, "FF, the channels have different types"),
         (M_7017, "line_settings", LineSettings(), "06, 9600 baud, N81"),

@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from i7000 import EncodeError, LineSettings, TypeCode, modbus
+from i7000 import InvalidValueError, LineSettings, TypeCode, modbus
 from i7000.cli.choices import chosen
 from i7000.cli.numbers import hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
@@ -54,7 +54,7 @@ def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | No
 
     Special: with `force` only names are replaced by addresses; values stay in `given`, to be read as plain numbers.
         Without a map, nothing is taken.
-    Errors: `UsageError` for what cannot be understood, `EncodeError` for what the module does not have or take.
+    Errors: `UsageError` for what cannot be understood, `InvalidValueError` for what the module does not have or take.
     """
     field = next(name for name in parts_of(kind) if name in _PLACES)
     if registers is None:
@@ -131,18 +131,20 @@ def _at(registers: RegisterMap, area: Area, address: int) -> Register | None:
 def _row(kind: type[Message], address: int, registers: RegisterMap) -> Register:
     """Return the row at an address that a message reads or writes.
 
-    Errors: `EncodeError` if the map has none, or none that can be read or written so.
+    Errors: `InvalidValueError` if the map has none, or none that can be read or written so.
     """
     area, model = AREAS[kind], registers.profile.model.value
     row = _at(registers, area, address)
     if row is None:
         number = Register("", area, address).number
         reason = f"{model} has no {_words(area)} at address {address}, {number} in the manual"
-        raise EncodeError("address", address, f"i7000 registers --model {model} lists what it has", "", reason)
+        raise InvalidValueError("address", address, f"i7000 registers --model {model} lists what it has", "", reason)
     reads = is_reading(kind)
     if row.access is (Access.WRITE if reads else Access.READ):
         allowed = f"it can only be {'written' if reads else 'read'}"
-        raise EncodeError("address", address, allowed, "", f"{row.name} cannot be {'read' if reads else 'written'}")
+        raise InvalidValueError(
+            "address", address, allowed, "", f"{row.name} cannot be {'read' if reads else 'written'}"
+        )
     return row
 
 
@@ -171,7 +173,7 @@ def _items(kind: type[Message], address: int, text: str, registers: RegisterMap)
         raise UsageError(f"{row.name}: {error}") from None
     try:
         request: Any = registers.write(1, number, value)
-    except EncodeError as refusal:
+    except InvalidValueError as refusal:
         raise as_written(refusal, row.name, text) from None
     return request.values if isinstance(request, modbus.WriteMultipleRegisters) else (request.value,)
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from i7000 import EncodeError
+from i7000 import InvalidValueError
 from i7000.cli.message import DCON, MODBUS, find, frame_text, make, refusal_words, registers
 from i7000.cli.message import encode as encode_message
 from i7000.cli.options import UNKNOWN, Json, Module, ProtocolName
@@ -52,7 +52,7 @@ def encode(
     try:
         message = make(kind, fields, registers(known) if protocol == "rtu" else None, force=force)
         frame = encode_message(message, known, force=force)
-    except EncodeError as refusal:
+    except InvalidValueError as refusal:
         words = refusal_words(refusal, kind, fields)
         printer.error(words if known.model or refusal.reason else f"no model takes it: {words}")
         return 1

@@ -12,14 +12,24 @@ from typing import Any, get_args
 
 from attrs import evolve
 
-from i7000 import CharacterFormat, DataFormat, EncodeError, Filter, LineSettings, Profile, ReportSettings, dcon, modbus
+from i7000 import (
+    CharacterFormat,
+    DataFormat,
+    Filter,
+    InvalidValueError,
+    LineSettings,
+    Profile,
+    ReportSettings,
+    dcon,
+    modbus,
+)
 from i7000.cli.by_register import held, is_of_registers
 from i7000.cli.choices import chosen
-from i7000.cli.numbers import hex_byte, integer
+from i7000.cli.numbers import baud_rate, hex_byte, integer
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
-from i7000.cli.words import UsageError, baud_rate, near, truth, type_code
+from i7000.cli.words import UsageError, near, truth, type_code
 from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
@@ -55,17 +65,17 @@ def _decided(known: Known) -> Known:
 def encode(message: Message, known: Known, *, force: bool) -> bytes:
     """Write a message, for the model that is known or for all of them, if it is the same for all that have it.
 
-    Errors: `EncodeError` if no module takes it, `UsageError` if the frame depends on the model.
+    Errors: `InvalidValueError` if no module takes it, `UsageError` if the frame depends on the model.
     """
     known = _decided(known)
     by_dcon = (known.default,) if known.default else known.all
     profiles = known.modbus if isinstance(message, modbus.Message) else by_dcon
     frames: dict[bytes, list[Profile]] = {}
-    refusals: list[tuple[Profile, EncodeError]] = []
+    refusals: list[tuple[Profile, InvalidValueError]] = []
     for profile in profiles:
         try:
             frames.setdefault(_encoded(message, profile, force=force), []).append(profile)
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             refusals.append((profile, refusal))
     if not frames:
         having = (refusal for profile, refusal in refusals if message.availability not in profile.refused)
@@ -86,10 +96,10 @@ def _encoded(message: Message, profile: Profile, *, force: bool) -> bytes:
     return dcon.encode(message, profile, force=force)  # type: ignore[arg-type] # it is one of the two
 
 
-def refusal_words(refusal: EncodeError, kind: type[Message], assignments: Sequence[str]) -> str:
+def refusal_words(refusal: InvalidValueError, kind: type[Message], assignments: Sequence[str]) -> str:
     """Return why a message is refused, with the value as it was written.
 
-    >>> refusal = EncodeError("timeout", 300, "00..FF", "2.39")
+    >>> refusal = InvalidValueError("timeout", 300, "00..FF", "2.39")
     >>> refusal_words(refusal, dcon.SetHostWatchdogTimeout, ["address=1", "timeout=30s"])
     'timeout cannot be 30s: 00..FF, counts of 0.1 s, manual 2.39'
     """
@@ -117,7 +127,7 @@ def make(
 ) -> Message:
     """Make a message; with `registers`, what it reads and writes is that of this map, unless `force`.
 
-    Errors: `UsageError` for what cannot be understood, `EncodeError` for a value that no such message has.
+    Errors: `UsageError` for what cannot be understood, `InvalidValueError` for a value that no such message has.
 
     >>> make(dcon.SetChannelMask, ("address=1", "channels=1,3,4,5"))
     SetChannelMask(address=0x01, mask=0x3A)

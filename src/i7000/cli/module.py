@@ -23,9 +23,9 @@ from i7000 import (
     dcon,
 )
 from i7000.cli.choices import FILTERS, PROTOCOLS
-from i7000.cli.numbers import integer
+from i7000.cli.numbers import baud_rate, integer
 from i7000.cli.refusals import as_written
-from i7000.cli.words import UsageError, baud_rate, channel_numbers, choice, member, near, quantity, truth, type_codes
+from i7000.cli.words import UsageError, channel_numbers, choice, member, near, quantity, truth, type_codes
 from i7000.device import Eeprom, factory, power_on
 
 __all__ = ["Described", "named", "read_module"]

@@ -6,9 +6,10 @@ a byte of settings, which manuals print in hex, in plain digits unless both read
 
 import re
 
+from i7000 import BaudRate
 from i7000.cli.words import UsageError
 
-__all__ = ["hex_byte", "integer", "is_hex"]
+__all__ = ["baud_rate", "hex_byte", "integer", "is_hex"]
 
 _HEX = re.compile(r"([-+]?)(?:0[xX]([0-9A-Fa-f]{1,8})|([0-9A-Fa-f]{1,8})[hH])")
 _DECIMAL = re.compile(r"[-+]?[0-9]{1,10}")
@@ -57,3 +58,16 @@ def hex_byte(text: str) -> int:
     if not 0 <= byte <= 0xFF:
         raise UsageError(f"{text!r} is not a byte: 00h..FFh")
     return byte
+
+
+def baud_rate(text: str) -> BaudRate | int:
+    """Read bits per second, or a code.
+
+    >>> baud_rate("9600"), baud_rate("06h")
+    (<BaudRate.BAUD_9600: 6>, <BaudRate.BAUD_9600: 6>)
+    """
+    number = integer(text)
+    rates = {rate.bits_per_second: rate for rate in BaudRate}
+    if number > max(BaudRate) and number not in rates:
+        raise UsageError(f"{text} baud is none of {', '.join(map(str, rates))}")
+    return rates.get(number, BaudRate.of(number))

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from attrs import evolve, fields, frozen
 from cyclopts import Parameter
 
-from i7000 import DataFormat, EncodeError, Firmware, ModbusDataFormat, Model, Protocol
+from i7000 import DataFormat, Firmware, InvalidValueError, ModbusDataFormat, Model, Protocol
 from i7000.cli import choices
 from i7000.cli.module import Described, read_module
 from i7000.cli.numbers import integer
@@ -98,7 +98,7 @@ class Module:
                 self.single_ended,
                 self.modbus_format,
             )
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             raise self._said(refusal) from None
         return known if self.model else self._checked(known, protocol)
 
@@ -108,11 +108,11 @@ class Module:
             raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
         try:
             _ = known.default, known.all, protocol == "rtu" and known.modbus
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             raise self._said(refusal) from None
         return known
 
-    def _said(self, refusal: EncodeError) -> UsageError:
+    def _said(self, refusal: InvalidValueError) -> UsageError:
         """Return a refusal with the option that was given."""
         options = {"firmware": ("--firmware", self.firmware), "type_codes": ("--type", self.types)}
         options["single_ended"] = ("--single-ended", "given")
@@ -132,7 +132,7 @@ def _described(text: str) -> tuple[int | None, Known]:
     if "@" not in text and "," not in text:
         try:
             return address, Known(Model.find(text))
-        except EncodeError as refusal:
+        except InvalidValueError as refusal:
             raise UsageError(as_written(refusal, "--model", text)) from None
     described = read_module(text, 1 if address is None else address)
     if address is None and "address" in described.given:

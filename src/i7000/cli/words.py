@@ -1,4 +1,4 @@
-"""Words that people type -> values: numbers, types, units, channels, choices."""
+"""Words that people type -> values: types, units, channels, choices."""
 
 import re
 from collections.abc import Mapping
@@ -7,15 +7,12 @@ from enum import Enum
 from math import isfinite
 from typing import TypeVar
 
-from i7000 import MIXED, BaudRate, TypeCode, Unit
+from i7000 import MIXED, TypeCode, Unit
 
 __all__ = [
     "UsageError",
-    "baud_rate",
     "channel_numbers",
     "choice",
-    "hex_byte",
-    "integer",
     "member",
     "near",
     "quantity",
@@ -39,24 +36,6 @@ def near(word: str, known: list[str]) -> str:
 
 
 # --- words for values -------------------------------------------------------------------------------------------------
-
-
-def integer(text: str) -> int:
-    """Read a number, decimal or ``0x`` and hex.
-
-    >>> integer("58"), integer("0x3A"), integer("-12")
-    (58, 58, -12)
-    """
-    if not re.fullmatch(r"[-+]?(?:0[xX][0-9A-Fa-f]{1,8}|[0-9]{1,9})", text):
-        raise UsageError(f"{text!r} is no number: decimal, or hex as 0x3A")
-    return int(text, 16 if "x" in text.lower() else 10)
-
-
-def hex_byte(text: str) -> int:
-    """Read a byte in hex, with or without ``0x``."""
-    if not re.fullmatch(r"(?:0[xX])?[0-9A-Fa-f]{1,2}", text):
-        raise UsageError(f"{text!r} is no byte: one or two hex digits")
-    return int(text, 16)
 
 
 _TRUTH = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
@@ -91,19 +70,6 @@ def member(text: str, kind: type[Enum]) -> Enum:
     if text.lower() not in names:
         raise UsageError(f"{text!r} is none of {', '.join(names)}")
     return names[text.lower()]
-
-
-def baud_rate(text: str) -> BaudRate | int:
-    """Read bits per second, or a code.
-
-    >>> baud_rate("9600"), baud_rate("0x06")
-    (<BaudRate.BAUD_9600: 6>, <BaudRate.BAUD_9600: 6>)
-    """
-    number = integer(text)
-    rates = {rate.bits_per_second: rate for rate in BaudRate}
-    if number > max(BaudRate) and number not in rates:
-        raise UsageError(f"{text} baud is none of {', '.join(map(str, rates))}")
-    return rates.get(number, BaudRate.of(number))
 
 
 _TYPES: dict[str, TypeCode] = {code.name: code for code in TypeCode} | {

@@ -13,7 +13,8 @@ _DIRECTION = re.compile(
     re.IGNORECASE,
 )
 """What can stand beside a frame: a time, which is crossed out, and words for its direction."""
-_LEADING = "%#$~@!>?"
+_LEADING = re.compile(r"[%#$~@!?]|(?<![-=<>])>(?!\s*[%#$~@!?>])")
+"""A leading character, and no arrow."""
 _HEADING = bytes(range(256))
 """What stands above the columns of a dump."""
 _FEWEST = 2
@@ -42,9 +43,9 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
                 return wire
     if protocol is Protocol.DCON:
-        first = min((at for at in map(crossed.find, _LEADING) if at >= 0), default=-1)
-        if first >= 0 and _DIRECTION.fullmatch(crossed[:first].rstrip("<-=>")):
-            body = text[first:].rstrip("\r\n")
+        first = _LEADING.search(crossed)
+        if first and _DIRECTION.fullmatch(crossed[: first.start()]):
+            body = text[first.start() :].rstrip("\r\n")
             ended = body[0] == ">" or text.endswith("\r")  # A blank before the carriage return was on the wire.
             return (body if ended else body.rstrip()).encode("utf-8", "surrogateescape") + b"\r"
     return None
