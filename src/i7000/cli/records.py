@@ -7,7 +7,7 @@ Laws: `fields` are those of the class, numbers as numbers, bytes of settings as 
 import json
 from collections.abc import Iterable
 from enum import Enum
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from attrs import fields
@@ -17,7 +17,6 @@ from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
 from i7000.dissect.meaning import errata
-from i7000.message import Message
 from i7000.settings import Protocol
 
 __all__ = [
@@ -51,6 +50,11 @@ def parts_of(kind: type[Message]) -> dict[str, Any]:
     return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
 
 
+@cache
+def _names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a message class
+    return tuple(parts_of(kind))
+
+
 # --- decode -----------------------------------------------------------------------------------------------------------
 
 
@@ -61,7 +65,8 @@ def json_of(read: Read) -> str:
     middle = _UNKNOWN_JSON
     if heard is not None and meaning is not None:
         middle = (_remembered_json if len(heard.wire) <= _SHORT else _meaning_json)(meaning)
-    return f"{_json(_head(read))[:-1]}, {middle}, {_json(_tail(read, meaning))[1:]}"
+    good = meaning is not None and heard is not None and not heard.notes and heard.understood
+    return f"{_json(_head(read))[:-1]}, {middle}, {_NOTHING_WRONG if good else _json(_tail(read, meaning))[1:]}"
 
 
 def _head(read: Read) -> Record:
@@ -99,6 +104,10 @@ def _tail(read: Read, meaning: Meaning | None) -> Record:
         "error": None if heard.error is None else str(heard.error),
         "fault": None if heard.error is None else heard.error.fault.value,
     }
+
+
+_NOTHING_WRONG = _json(_tail(Read(0, 0, 0, "", None, None), None))[1:]
+"""The keys of a frame of which nothing else is to be said."""
 
 
 def _frame(heard: Heard) -> str:
@@ -146,13 +155,16 @@ def _meaning_json(meaning: Meaning) -> str:
     if not meaning.readings:
         return _json(meaning_record(meaning))[1:-1]
     before, after = _around_readings(meaning)
-    fields = meaning.fields
-    values = _json({field.name: _plain(field.value) for field in fields})
-    words = _json({field.name: field.text for field in fields if field.name not in VALUES})
+    kind: Any = type(meaning.message)
+    values = {name: _plain(getattr(meaning.message, name)) for name in _names(kind)}
+    words = {}
+    if len(values) > 1 or not values.keys() <= VALUES:
+        words = {field.name: field.text for field in meaning.fields if field.name not in VALUES}
     readings = ", ".join(map(_reading_json, meaning.readings))
     items = ", ".join(map(_item_json, meaning.items))
     return (
-        f'{before}, "fields": {values}, "explained": {words}, "readings": [{readings}], "registers": [{items}], {after}'
+        f'{before}, "fields": {_json(values)}, "explained": {_json(words) if words else "{}"}, '
+        f'"readings": [{readings}], "registers": [{items}], {after}'
     )
 
 
@@ -195,7 +207,7 @@ def _item_json(item: Item) -> str:
 
 
 _remembered_json = lru_cache(maxsize=_REMEMBERED)(_meaning_json)
-VALUES = ("value", "values")
+VALUES = frozenset(("value", "values"))
 """Fields that readings and registers show."""
 OPTIONS = {"types": "type", "data_format": "format", "modbus_data_format": "modbus_format"}
 """The options that say what is assumed."""
