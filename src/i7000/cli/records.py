@@ -45,9 +45,9 @@ _json = json.JSONEncoder(check_circular=False).encode
 _UNKNOWN_JSON = _json(_UNKNOWN)[1:-1]
 
 
-def parts_of(kind: type[Message]) -> dict[str, Any]:
+def parts_of(kind: Any) -> dict[str, Any]:  # noqa: ANN401 - a message class
     """Return the fields of a message class with their attrs, whose type has the part of the layout."""
-    return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
+    return {field.name: field for field in fields(kind)}
 
 
 @cache
