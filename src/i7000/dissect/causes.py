@@ -16,6 +16,7 @@ from i7000.dissect.modbus import ModbusReader
 from i7000.dissect.shapes import is_shaped
 from i7000.errors import DecodeError
 from i7000.message import Message
+from i7000.settings import DataFormat
 
 __all__ = ["address_notes", "dcon_causes", "modbus_causes", "register_notes"]
 
@@ -43,11 +44,18 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
     if upper != body and _name(reader, upper, asked):
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
     if asked is not None and body[:1] == b">":
+        yield from _format_causes(body, known, asked)
         for count in range(1, _MOST_STRIPPED):
             if _name(reader, body + _BLANK_FIELD.encode() * count, asked):
                 channels = "the last channel is" if count == 1 else f"the last {count} channels are"
                 yield f"{count * len(_BLANK_FIELD)} blanks short: {channels} disabled, and the log has lost the blanks?"
                 break
+
+
+def _format_causes(body: bytes, known: Known, asked: bytes) -> Iterator[str]:
+    for other in DataFormat if known.data_format is not None else ():
+        if _name(DconReader(evolve(known, data_format=other)), body, asked):
+            yield f"it can be read in data format {other.name.lower()}"
 
 
 def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator[str]:
@@ -144,9 +152,11 @@ _NUMBERS_A_KIND = 9999
 
 def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
     """Yield that an address that no known module has is likely to be one in decimal, written as hex."""
-    if address is None or not knowledge.modules or address in knowledge.modules:
+    others = knowledge.others.given
+    given = [other for other, module in knowledge.modules.items() if module.given is not others]
+    if address is None or address in given:
         return
-    for other in knowledge.modules:
+    for other in given:
         if int(str(other), 16) == address:
             known = describe.address(other)
             yield f"no module at {describe.address(address)} is known, but one at {known}: in decimal?"

@@ -10,7 +10,7 @@ from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
 
-__all__ = ["Asked", "Direction", "Heard", "Line", "Place"]
+__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests"]
 
 
 class Place(NamedTuple):
@@ -76,6 +76,30 @@ class Asked:
     echoed: bool = False
 
 
+class Commands(NamedTuple):
+    """What was heard by DCON, as far as it matters for what comes next."""
+
+    asked: Asked | None = None
+    """The command that has no answer yet."""
+    unanswered: Asked | None = None
+    """The command before that, if it has none either."""
+    answered: Asked | None = None
+    """The command that was answered last, until the next one."""
+    answer: bytes = b""
+    """The response that was heard last."""
+
+
+class Requests(NamedTuple):
+    """What was heard by Modbus, as far as it matters for what comes next."""
+
+    asked: Asked | None = None
+    """The request that has no answer yet."""
+    in_step: bool = False
+    """Whether a request is what comes next."""
+    echoes: bool = False
+    """Whether the adapter hears what it sends."""
+
+
 @frozen
 class Line:
     """Both sides of a line, as far as they were heard."""
@@ -87,17 +111,5 @@ class Line:
     """Bytes that can still become a frame."""
     count: int = 0
     """The number of the last frame."""
-    asked: Asked | None = None
-    """The command by DCON that has no answer yet."""
-    unanswered: Asked | None = None
-    """The command by DCON before that, if it has none either."""
-    requested: Asked | None = None
-    """The request by Modbus that has no answer yet."""
-    answered: Asked | None = None
-    """The command by DCON that was answered last, until the next one."""
-    answer: bytes = b""
-    """The response by DCON that was heard last."""
-    in_step: bool = False
-    """Whether a request is what comes next by Modbus."""
-    echoes: bool = False
-    """Whether the adapter hears what it sends."""
+    commands: Commands = field(factory=Commands)
+    requests: Requests = field(factory=Requests)

@@ -7,7 +7,7 @@ Laws: what is given beats what was learned, which beats the factory default. A s
 changed beats what was given. Facts never make a combination that no module has.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import Enum, StrEnum
 from functools import cached_property
 from itertools import product
@@ -16,13 +16,14 @@ from typing import Any
 
 from attrs import evolve, field, fields_dict, frozen
 
+from i7000 import describe
 from i7000.errors import EncodeError
 from i7000.models import Firmware, Model
 from i7000.profile import LAST_LEGACY, Profile
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
-from i7000.type_codes import TypeCode
+from i7000.type_codes import MIXED, TypeCode
 
-__all__ = ["Fact", "Knowledge", "Known", "Module", "Origin", "fact_words"]
+__all__ = ["Fact", "Knowledge", "Known", "Module", "Origin", "fact_words", "lacking_type"]
 
 
 @frozen(cache_hash=True)
@@ -169,7 +170,7 @@ class Fact:
     """One thing that is known of a module."""
 
     name: str
-    """An attribute of `Known`, or ``name``, ``mask``, ``line_settings``, ``protocol``."""
+    """An attribute of `Known`, or ``name``, ``mask``, ``line_settings``."""
     value: Any
     origin: Origin = Origin.LEARNED
     where: str = ""
@@ -248,20 +249,46 @@ class Knowledge:
 
     def put(self, address: int, module: Module) -> "Knowledge":
         """Replace what is known of the module at an address."""
-        return evolve(self, modules={**self.modules, address: module})
+        return Knowledge(self.others, {**self.modules, address: module})
+
+    def move(self, address: int, new_address: int) -> "Knowledge":
+        """Take what is known of a module to its new address; of another one at the old address nothing is known."""
+        kept = {at: module for at, module in self.modules.items() if at != address}
+        return Knowledge(self.others, {**kept, new_address: self.of(address)})
+
+
+def lacking_type(known: Known, code: int | None) -> str | None:
+    """Say that a module cannot have a type; None if it can, or if its model is unknown.
+
+    >>> lacking_type(Known(Model.I_7018), 0x08)
+    'type 08, -10..10 V: none that an I-7018 can have'
+    """
+    models = (known.model,) if known.model else known.models
+    if code in (None, MIXED) or not models or any(profile.supports(code) for profile in known.all):
+        return None
+    return f"type {describe.type_code(code)}: none that {fact_words(Fact('models', models))} can have"
 
 
 def fact_words(fact: Fact) -> str:
     """Return a fact in words."""
-    match fact.name:
-        case "types":
-            codes = dict.fromkeys(code for code in fact.value if code is not None)
-            return "type " + " ".join(f"{code:02X} ({code.name})" for code in codes)
-        case "checksum":
-            return "with a checksum" if fact.value else "without a checksum"
-        case "single_ended":
-            return "single-ended" if fact.value else "differential"
-        case "models":
-            return "an " + " or ".join(model.value for model in fact.value)
-    value = fact.value.name.lower() if isinstance(fact.value, Enum) else fact.value
-    return f"{fact.name.replace('_', ' ')} {value}"
+    value = fact.value
+    if fact.name in _WORDS:
+        return _WORDS[fact.name](value)
+    shown = value.name.lower() if isinstance(value, Enum) else value
+    return f"{fact.name.replace('_', ' ')} {shown}"
+
+
+def _types_words(types: tuple[TypeCode | None, ...]) -> str:
+    codes = dict.fromkeys(code for code in types if code is not None)
+    return "type " + " ".join(f"{code:02X} ({code.name})" for code in codes)
+
+
+_WORDS: Mapping[str, Callable[[Any], str]] = {
+    "types": _types_words,
+    "checksum": lambda checksum: "with a checksum" if checksum else "without a checksum",
+    "single_ended": lambda single_ended: "single-ended" if single_ended else "differential",
+    "model": lambda model: f"an {model.value}",
+    "models": lambda models: "an " + " or ".join(model.value for model in models),
+    "line_settings": lambda line: f"line settings {describe.line_settings(line)}",
+    "mask": lambda mask: f"mask {describe.mask(mask)}",
+}

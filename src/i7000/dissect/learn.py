@@ -3,14 +3,14 @@
 One row a command: the facts, from the command and its response.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any
 
-from attrs import evolve
+from attrs import evolve, fields
 
 from i7000 import dcon, modbus
-from i7000.dissect.heard import Line
-from i7000.dissect.known import Fact, Known, Module, fact_words
+from i7000.dissect.known import Fact, Knowledge, Known, Module, fact_words, lacking_type
 from i7000.dissect.meaning import Item, Meaning
 from i7000.dissect.registers import items
 from i7000.models import Firmware, Model
@@ -20,54 +20,107 @@ from i7000.type_codes import TypeCode
 __all__ = ["learn", "with_facts"]
 
 
+_REMEMBERED = 256
+"""Answers of which it is kept whether they show something new."""
+
+
 def learn(
-    line: Line, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
-) -> tuple[Line, tuple[str, ...]]:
-    """Learn from a response; and say what of it contradicts what was known before."""
-    module = line.knowledge.of(address)
-    facts = list(_facts_of(meaning, module.known, where)) if meaning.command is not None else []
-    profile = meaning.fit.profiles[0]
-    facts += [Fact(name, getattr(profile, name), where=where) for name in shown if name != "firmware"]
+    knowledge: Knowledge, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
+) -> tuple[Knowledge, tuple[str, ...]]:
+    """Learn from a response of the module at an address; and return what of it contradicts what was known before.
+
+    Shape: `where` it stands; `shown`, the facts that its form alone shows.
+    """
+    if not shown and type(meaning.command) not in _TEACHING:
+        return knowledge, ()
+    module = knowledge.of(address)
+    moved = _new_address(meaning)
+    if moved in (None, address) and not _has_news(meaning, module, shown):
+        return knowledge, ()
     learned, wrong = module, []
-    for fact in facts:
+    for fact in _all_facts(meaning, module, shown, where):
         before = module.facts.get(fact.name)
-        if before is not None and before.value == fact.value:
-            continue
         contradiction = _contradiction(module, before, fact)
         if contradiction:
             wrong.append(contradiction)
-        learned = learned.learn(fact)
+        if _is_new(before, fact):
+            if before is not None and before.changed:
+                fact = evolve(fact, changed=True)  # noqa: PLW2901 - what was given does not come back
+            after = learned.learn(fact)
+            if after is learned:
+                wrong.append(_impossible(learned, fact))
+            learned = after
     if learned is not module:
-        line = evolve(line, knowledge=line.knowledge.put(address, learned))
-    moved = _new_address(meaning) if meaning.command is not None else None
-    if moved is not None and moved != address:
-        line = evolve(line, knowledge=line.knowledge.put(moved, line.knowledge.of(address)))
-    return line, tuple(wrong)
+        knowledge = knowledge.put(address, learned)
+    if moved not in (None, address):
+        knowledge = knowledge.move(address, moved)
+    return knowledge, tuple(wrong)
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _has_news(meaning: Meaning, module: Module, shown: tuple[str, ...]) -> bool:
+    """Return whether a response shows anything that is new, or contradicts what is known."""
+    for fact in _all_facts(meaning, module, shown, ""):
+        before = module.facts.get(fact.name)
+        if _is_new(before, fact) or _contradiction(module, before, fact):
+            return True
+    return False
+
+
+def _all_facts(meaning: Meaning, module: Module, shown: tuple[str, ...], where: str) -> Iterator[Fact]:
+    """Yield what a response shows, by its fields or by its form."""
+    facts = {fact.name: fact for fact in _facts_of(meaning, module.known, where)}
+    profile = meaning.fit.profiles[0]
+    facts |= {name: Fact(name, getattr(profile, name), where=where) for name in shown}
+    yield from facts.values()
+
+
+def _is_new(before: Fact | None, fact: Fact) -> bool:
+    """Return whether a fact adds anything: a change is one once only."""
+    return before is None or before.value != fact.value or fact.changed > before.changed
+
+
+_NAMING = ("name", "firmware", "models")
+"""Facts that no setting changes, or hardly ever."""
 
 
 def _contradiction(module: Module, before: Fact | None, fact: Fact) -> str | None:
     """Say what an answer contradicts; a change that was accepted contradicts nothing."""
     if fact.changed:
         return None
-    given = getattr(module.given, fact.name, None)
+    model = module.given.model
+    if fact.name == "models" and model is not None:
+        return None if model in fact.value else f"{fact_words(fact)} by its name, but an {model.value} was given"
     if module.gives(fact.name) and not (before is not None and before.changed):
-        if _agree(given, fact.value):
-            return None
-        return f"{fact_words(fact)}, but {fact_words(evolve(fact, value=given))} was given"
-    if before is None or _agree(before.value, fact.value):
+        given = evolve(fact, value=getattr(module.given, fact.name))
+        return None if _agree(given, fact) else f"{fact_words(fact)}, but {fact_words(given)} was given"
+    if before is None or _agree(before, fact):
         return None
-    other = "; two modules on one address?" if fact.name in ("name", "firmware", "models") else ""
+    other = "; two modules on one address?" if fact.name in _NAMING else ""
     return f"{fact_words(fact)}, but {before.where} said {fact_words(before)}{other}"
 
 
-def _agree(known: Any, value: Any) -> bool:  # noqa: ANN401 - of any fact
-    """Return whether two values can both be true: of types, where both are known."""
-    if not isinstance(known, tuple) or not isinstance(value, tuple):
-        return bool(known == value)
-    if len(known) == 1 or len(value) == 1:
-        ones, others = set(known) - {None}, set(value) - {None}
-        return ones == others or not ones or not others
-    return all(one is None or other is None or one == other for one, other in zip(known, value, strict=False))
+def _agree(one: Fact, other: Fact) -> bool:
+    """Return whether two facts of one name can both be true: of types, where both are known."""
+    if one.name == "models":
+        return not set(one.value).isdisjoint(other.value)
+    if one.name != "types":
+        return bool(one.value == other.value)
+    if 1 in (len(one.value), len(other.value)):  # The type of all channels.
+        known, others = set(one.value) - {None}, set(other.value) - {None}
+        return known == others or not known or not others
+    return all(None in pair or pair[0] == pair[1] for pair in zip(one.value, other.value, strict=False))
+
+
+def _impossible(module: Module, fact: Fact) -> str:
+    """Say that no module has what was shown together with what is known."""
+    known = module.known
+    lacking = fact.name == "types" and next(filter(None, (lacking_type(known, code) for code in fact.value)), None)
+    if lacking:
+        return f"{lacking}; another model?"
+    others = (Fact(it.name, getattr(known, it.name)) for it in fields(Known) if it.name != fact.name)
+    words = " and ".join(fact_words(other) for other in others if other.value not in (None, ()))
+    return f"{fact_words(fact)} does not go with {words}"
 
 
 def with_facts(meaning: Meaning, module: Module) -> Meaning:
@@ -85,7 +138,7 @@ _Pairs = Iterator[tuple[str, Any]]
 def _facts_of(meaning: Meaning, known: Known, where: str) -> Iterator[Fact]:
     """Yield the facts that a response shows together with its command; `where` it stands."""
     command, response = meaning.command, meaning.message
-    if isinstance(response, dcon.Refused | modbus.ExceptionResponse):
+    if command is None or isinstance(response, dcon.Refused | modbus.ExceptionResponse):
         return
     for rows, changed in ((_READ, False), (_SET, True)):
         row = rows.get(type(command))
@@ -97,7 +150,9 @@ def _facts_of(meaning: Meaning, known: Known, where: str) -> Iterator[Fact]:
         yield Fact("checksum", meaning.checksum, where=where, changed=True)
     changed = isinstance(command, _WRITES)
     for item in _sent(meaning) if changed else meaning.items:
-        yield from (Fact(name, value, where=where, changed=changed) for name, value in _of_item(item, known))
+        for name, value in _of_item(item, known):
+            known = evolve(known, types=value) if name == "types" else known  # of one channel after the other
+            yield Fact(name, value, where=where, changed=changed)
 
 
 def _new_address(meaning: Meaning) -> int | None:
@@ -114,6 +169,10 @@ def _new_address(meaning: Meaning) -> int | None:
 # --- DCON, and function 46h -------------------------------------------------------------------------------------------
 
 
+_MIXED = 2
+"""Types that there are at least where each channel has its own."""
+
+
 def _types(code: TypeCode | int) -> _Pairs:
     """The type of all channels, if it is one."""
     if isinstance(code, TypeCode):
@@ -121,14 +180,19 @@ def _types(code: TypeCode | int) -> _Pairs:
 
 
 def _channel_type(channel: int, code: TypeCode | int, known: Known) -> _Pairs:
+    """The types of all channels, that of one of them being shown."""
     if not isinstance(code, TypeCode):
         return
     types = known.types or ()
+    if types == (code,):
+        return
+    open_ended = len(types) < _MIXED
     if len(types) == 1:
-        types *= channel + 1
+        default = evolve(known, types=None).default
+        types *= channel + 1 if default is None else default.channels
+        open_ended = default is None
     others = {at: it for at, it in enumerate(types) if it is not None} | {channel: code}
-    full = known.types is not None and len(types) > 1 and None not in types and channel < len(types)
-    last = len(types) if full else max(others) + 2
+    last = max(others) + 2 if open_ended or None in types or channel >= len(types) else len(types)
     yield "types", tuple(others.get(at) for at in range(last))
 
 
@@ -146,17 +210,21 @@ def _read_configuration(_: Any, response: dcon.Configuration, known: Known) -> _
     yield "checksum", response.report_settings.checksum
 
 
-def _name(_: Any, response: dcon.ModuleName, __: Known) -> _Pairs:  # noqa: ANN401
+def _name(_: Any, response: dcon.ModuleName, known: Known) -> _Pairs:  # noqa: ANN401
     yield "name", response.name
-    models = tuple(model for model in Model if model.factory_name == response.name)
-    if models:
-        yield "models", models
+    yield from _models((model for model in Model if model.factory_name == response.name), known)
 
 
-def _series(_: Any, response: modbus.ModuleName, __: Known) -> _Pairs:  # noqa: ANN401
-    models = tuple(it for it in Model if it.modbus_name == response.name and Protocol.MODBUS_RTU in it.protocols)
+def _series(_: Any, response: modbus.ModuleName, known: Known) -> _Pairs:  # noqa: ANN401
+    speaking = (model for model in Model if Protocol.MODBUS_RTU in model.protocols)
+    yield from _models((model for model in speaking if model.modbus_name == response.name), known)
+
+
+def _models(named: Iterable[Model], known: Known) -> _Pairs:
+    """The models that have a name, and are among those that are known if any of them is."""
+    models = tuple(named)
     if models:
-        yield "models", models
+        yield "models", tuple(model for model in models if model in known.models) or models
 
 
 def _version(_: Any, response: dcon.FirmwareVersion, __: Known) -> _Pairs:  # noqa: ANN401
@@ -196,6 +264,9 @@ _SET: Mapping[type | None, _Row] = {
 
 # --- registers --------------------------------------------------------------------------------------------------------
 
+_AREAS_READ = (
+    modbus.ReadCoils, modbus.ReadDiscreteInputs, modbus.ReadHoldingRegisters, modbus.SetModuleAddress,
+)  # fmt: skip
 _WRITES = (modbus.WriteSingleCoil, modbus.WriteSingleRegister, modbus.WriteMultipleCoils, modbus.WriteMultipleRegisters)
 
 
@@ -223,3 +294,5 @@ _REGISTERS: Mapping[str | None, Callable[[Item, Known], _Pairs]] = {
     "channel_mask": lambda item, _: iter((("mask", item.value),)),
 }
 """The registers that decide how others, and frames, are read."""
+_TEACHING = frozenset((*_READ, *_SET, *_WRITES, *_AREAS_READ))
+"""The commands whose responses show something."""

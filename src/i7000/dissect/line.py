@@ -64,9 +64,10 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
     """
     wire = as_bytes("wire", wire)
     place = place or _next(line)
-    line = evolve(line, count=place.number)
     if not wire:
-        return line, Heard(place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame"))
+        return evolve(line, count=place.number), Heard(
+            place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame")
+        )
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place)
 
 

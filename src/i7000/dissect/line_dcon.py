@@ -1,23 +1,18 @@
 """The listener's half by DCON: a frame -> what it means after those that were heard before it."""
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
-from attrs import evolve
-
-from i7000 import describe
+from i7000 import dcon
 from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
-from i7000.dissect.known import Fact, Known, Module, fact_words
+from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place
+from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
-from i7000.profile import Profile
 from i7000.settings import Protocol
-from i7000.type_codes import MIXED
 
 __all__ = ["hear_dcon"]
 
@@ -31,59 +26,69 @@ def hear_dcon(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
 
 
 def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
+    knowledge, (before, unanswered, _, answer) = line.knowledge, line.commands
     address = _dcon_address(wire)
-    read = _read_dcon(line.knowledge.of(address), wire, None)
-    before, notes = line.asked, (*read.notes, *address_notes(address, line.knowledge))
-    same = before is not None and before.wire == wire
-    if before is not None and same:
-        notes = (*notes, f"the same as {before.place.where}: an echo, or asked again")
+    read = _read_dcon(knowledge.of(address), wire, None)
+    notes = read.notes
+    if knowledge.modules:
+        notes = (*notes, *address_notes(address, knowledge))
+    same_as = None
+    if before is None or before.wire != wire:
+        unanswered = before
+    else:
+        same_as = before.place
+        notes = (*notes, f"the same as {same_as.where}: an echo, or asked again")
     asked = Asked(place, wire, address) if read.error is None else None
-    unanswered = line.unanswered if same else before
-    heard = Heard(
-        place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings,
-        same_as=before.place if before is not None and same else None,
-        notes=notes, error=read.error, contradictions=read.contradictions,
+    commands = Commands(asked, unanswered, None, answer)
+    return Line(knowledge, line.protocol, line.rest, place.number, commands, line.requests), Heard(
+        place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings, None, same_as, notes, read.error, (),
+        read.contradictions,
     )  # fmt: skip
-    return evolve(line, asked=asked, unanswered=unanswered, answered=None), heard
 
 
 def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    asked = line.asked
+    knowledge, commands = line.knowledge, line.commands
+    asked, _, before, answer = commands
     address = _dcon_address(wire)
     if address is None and asked is not None:
         address = asked.address
-    module = line.knowledge.of(address)
+    module = knowledge.of(_sender(wire, address, asked))
     read = _read_dcon(module, wire, None if asked is None else asked.wire)
-    asked, read, more = _out_of_turn(line, module, wire, asked, read)
-    notes, contradictions = (*read.notes, *more), read.contradictions
-    if asked is None and line.answered is not None and _answers(module, wire, line.answered):
-        if wire == line.answer:
-            notes = (*notes, f"the same again: an answer to {line.answered.place.where} that was printed twice?")
+    notes, contradictions = read.notes, read.contradictions
+    late = commands.unanswered
+    if asked is not None and late is not None and read.error is not None and _answers(module, wire, late):
+        read, asked = _read_dcon(module, wire, late.wire), late
+        notes, contradictions = read.notes, read.contradictions
+        notes = (*notes, f"a late answer: {late.place.where} asked for it, before the last command")
+    elif asked is None and before is not None and _answers(module, wire, before):
+        if wire == answer:
+            notes = (*notes, f"the same again: an answer to {before.place.where} that was printed twice?")
         else:
-            second = f"a second answer to {line.answered.place.where}: two modules on one address?"
+            second = f"a second answer to {before.place.where}: two modules on one address?"
             contradictions = (*contradictions, second)
-    answered = asked is not None and read.answers
-    if answered or read.error is None:
-        line = evolve(line, asked=None, unanswered=None, answered=asked if answered else line.answered, answer=wire)
-    if address is not None and read.error is None and len(read.meanings) == 1:
-        line, wrong = learn(line, address, read.meanings[0], place.where, read.shown)
-        contradictions = (*contradictions, *wrong)
-    return line, Heard(
-        place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings,
-        answers=asked.place if asked is not None and answered else None,
-        notes=notes, error=read.error, candidates=read.candidates, contradictions=contradictions,
+    answers = None
+    if asked is not None and read.answers:
+        answers, commands = asked.place, Commands(None, None, asked, wire)
+    elif read.error is None:
+        commands = Commands(None, None, before, wire)
+    sender = _sender(wire, address, asked)
+    if sender is not None and read.dropped:
+        knowledge = knowledge.put(sender, module.without(read.dropped))
+    if sender is not None and read.error is None and len(read.meanings) == 1:
+        knowledge, wrong = learn(knowledge, sender, read.meanings[0], place.where, read.shown)
+        if wrong:
+            contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
+    return Line(knowledge, line.protocol, line.rest, place.number, commands, line.requests), Heard(
+        place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings, answers, None, notes, read.error,
+        read.candidates, contradictions,
     )  # fmt: skip
 
 
-def _out_of_turn(
-    line: Line, module: Module, wire: bytes, asked: Asked | None, read: "_Read"
-) -> tuple[Asked | None, "_Read", tuple[str, ...]]:
-    """Return what a response answers: if it cannot be the last command, the one before that, which has no answer."""
-    late = line.unanswered
-    if asked is None or late is None or read.error is None or not _answers(module, wire, late):
-        return asked, read, ()
-    note = f"a late answer: {late.place.where} asked for it, before the last command"
-    return late, _read_dcon(module, wire, late.wire), (note,)
+def _sender(wire: bytes, address: int | None, asked: Asked | None) -> int | None:
+    """Return the address that a module had when it was asked: what accepts a new address answers with that (2.1)."""
+    if asked is not None and asked.wire[:1] == b"%" and asked.wire[3:5] == wire[1:3]:
+        return asked.address
+    return address
 
 
 def _answers(module: Module, wire: bytes, asked: Asked) -> bool:
@@ -101,6 +106,8 @@ class _Read(NamedTuple):
     contradictions: tuple[str, ...] = ()
     shown: tuple[str, ...] = ()
     """What the frame shows by itself: names of facts whose factory default it does not fit."""
+    dropped: tuple[str, ...] = ()
+    """Names of the facts that were learned, and that it contradicts."""
 
     @property
     def answers(self) -> bool:
@@ -126,16 +133,17 @@ def _read_dcon(module: Module, wire: bytes, asked: bytes | None) -> _Read:
         return _Read(error=error.with_traceback(None), candidates=candidates, notes=causes)
     contradictions = tuple(f"not {fact_words(fact)}, which {fact.where} said" for fact in dropped)
     known = module.known
-    shown = _differences(known, meanings) if not dropped else ()
-    notes = (f"not as from the factory: {', '.join(_SHOWN[name] for name in shown)}",) if shown else ()
+    shown, differing = _differences(known, meanings) if not dropped else ((), "")
+    notes = (f"not as from the factory: {differing}",) if differing else ()
     for meaning in meanings:
-        lacking = _lacking(meaning)
+        lacking = _lacking(meaning, known)
         if lacking and meaning.command is not None:
             contradictions = (*contradictions, lacking)
         elif lacking:
             notes = (*notes, lacking)
     meanings = tuple(with_facts(meaning, module) for meaning in meanings)
-    return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown)
+    names = tuple(fact.name for fact in dropped)
+    return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown, names)
 
 
 def _dcon_meanings(module: Module, wire: bytes, asked: bytes | None) -> tuple[tuple[Meaning, ...], tuple[Fact, ...]]:
@@ -148,18 +156,29 @@ def _dcon_meanings(module: Module, wire: bytes, asked: bytes | None) -> tuple[tu
         fault = error
     if found and not found[0].misfit:
         return found, ()
-    learned = module.learned
-    for facts in (*((fact,) for fact in learned), learned if len(learned) > 1 else ()):
-        known = module.without(fact.name for fact in facts).known
-        try:
-            others = reader_of(known).meanings(wire, asked) if facts else ()
-        except DecodeError:
-            continue
-        if others and not others[0].misfit:
-            return others, facts
-    if fault is not None:
-        raise fault
-    return found, ()
+    dropped = module.learned
+    others = _read_without(module, dropped, wire, asked) if dropped else None
+    if others is None:
+        if fault is not None:
+            raise fault
+        return found, ()
+    for fact in reversed(dropped):  # what need not be dropped is kept
+        fewer = tuple(it for it in dropped if it is not fact)
+        read = _read_without(module, fewer, wire, asked)
+        if read is not None:
+            dropped, others = fewer, read
+    return others, dropped
+
+
+def _read_without(
+    module: Module, facts: tuple[Fact, ...], wire: bytes, asked: bytes | None
+) -> tuple[Meaning, ...] | None:
+    """Read a frame without some of what was learned; None if that does not make it readable."""
+    try:
+        found = reader_of(module.without(fact.name for fact in facts).known).meanings(wire, asked)
+    except DecodeError:
+        return None
+    return None if found[0].misfit else found
 
 
 def _alone(reader: DconReader, wire: bytes) -> tuple[Meaning, ...]:
@@ -179,31 +198,24 @@ _SHOWN = {
 """What a frame can show whose factory default it does not fit."""
 
 
-def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[str, ...]:
-    """Return what is not as the factory defaults have it, which are assumed if the model is known."""
+def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[tuple[str, ...], str]:
+    """Return what is certainly not as from the factory, which is assumed if the model is known; and that in words."""
     default = known.default
     if default is None or any(default in meaning.fit.profiles for meaning in meanings):
-        return ()
+        return (), ""
     profiles = [profile for meaning in meanings for profile in meaning.fit.profiles]
-    return tuple(
-        name
-        for name in _SHOWN
-        if getattr(known, name) is None and all(getattr(it, name) != getattr(default, name) for it in profiles)
-    )
+    unknown = {name: getattr(default, name) for name in _SHOWN if getattr(known, name) is None}
+    certain = [name for name, value in unknown.items() if all(getattr(it, name) != value for it in profiles)]
+    if certain:
+        shown = tuple(name for name in certain if name != "firmware")  # There is no version to be learned.
+        return shown, ", ".join(_SHOWN[name] for name in certain)
+    formats = {"another data format" for it in profiles if it.data_format is not default.data_format}
+    return (), " or ".join(("another type", *formats))
 
 
-def _lacking(meaning: Meaning) -> str | None:
+def _lacking(meaning: Meaning, known: Known) -> str | None:
     """Say that a message has a type that the model does not have."""
-    code = getattr(meaning.message, "type_code", None)
-    profiles = meaning.fit.profiles
-    if code is None or code == MIXED or len(meaning.fit.models) != 1 or any(map(_supporting(code), profiles)):
+    lacking = lacking_type(known, getattr(meaning.message, "type_code", None))
+    if lacking is None:
         return None
-    model = profiles[0].model.value
-    words = describe.type_code(code)
-    if meaning.command is None:
-        return f"type {words}: none that an {model} can have; it answers ?AA"
-    return f"type {words}: none that an {model} can have; another model?"
-
-
-def _supporting(code: int) -> Callable[[Profile], bool]:
-    return lambda profile: profile.supports(code)
+    return f"{lacking}; {'it answers ?AA' if isinstance(meaning.message, dcon.Command) else 'another model?'}"
