@@ -142,7 +142,7 @@ class Profile:
         return self.has(CONFIGURABLE)
 
     def supported_types(self) -> str:
-        """The names of the types that the module can be set to: for messages."""
+        """Return the names of the types that the module can be set to: for messages."""
         return _supported_types(self.model, self.firmware)
 
     def _check_kinds(self) -> None:

@@ -173,7 +173,7 @@ class Bus:
         return bus, ear, _without_foreign_noise(first + second)
 
     def silence(self, ear: Ear, signals: Sequence[Signals], now: float) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        """Let all modules hear a silence of 3.5 characters, which ends a frame of Modbus RTU.
+        """Process a silence of 3.5 characters for all modules; it ends a frame of Modbus RTU.
 
         Manual: 3.
         """

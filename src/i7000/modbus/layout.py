@@ -153,7 +153,7 @@ class _Statement(NamedTuple):
     fixed: tuple[Token, ...]
     """The tokens before the one of variable length."""
     tail: Token
-    """The token of variable length; it has no form if there is none."""
+    """The token of variable length; without a form if there is no such token."""
     keywords: frozenset[str]
     """The keyword-only fields."""
 
