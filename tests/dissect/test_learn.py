@@ -13,7 +13,6 @@ from i7000 import (
     Model,
     Profile,
     TypeCode,
-    dcon,
     modbus,
 )
 from i7000.dissect import Known, Origin
@@ -33,6 +32,9 @@ def learned(*frames: str | bytes, known: Known | None = None, address: int = 0x0
 def exchange(request: modbus.Request[Any], response: modbus.Response) -> tuple[bytes, bytes]:
     profile = Profile(Model.M_7019R)
     return modbus.encode(request, profile), modbus.encode(response, profile)
+
+
+VERSION = exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0x0B, 3, 7))
 
 
 def read_register(address: int, *words: int) -> tuple[bytes, bytes]:
@@ -78,7 +80,7 @@ def written(address: int, *words: int) -> tuple[bytes, bytes]:
             },
         ),
         (exchange(modbus.ReadModuleName(1), modbus.ModuleName(1, bytes.fromhex("00701900"))), {"models": M_7019}),
-        (exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0x0B, 3, 7)), {"firmware": Firmware("B3.7")}),
+        (VERSION, {"firmware": Firmware("B3.7")}),
         (exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0, 0, 0)), {}),
         (exchange(modbus.ReadTypeCode(1, 2), modbus.TypeCodeSetting(1, 0x0F)), {"types": (None, None, K, None)}),
         (exchange(modbus.SetTypeCode(1, 2, 0x0F), modbus.TypeCodeResult(1, 0)), {"types": (None, None, K, None)}),

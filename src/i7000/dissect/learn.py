@@ -9,7 +9,7 @@ from typing import Any
 from attrs import evolve, fields
 
 from i7000 import dcon, modbus
-from i7000.dissect.heard import Line
+from i7000.dissect.heard import Line, updated
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.meaning import Item, Meaning
 from i7000.dissect.registers import items
@@ -42,10 +42,10 @@ def learn(
                 wrong.append(_impossible(learned, fact))
             learned = after
     if learned is not module:
-        line = evolve(line, knowledge=line.knowledge.put(address, learned))
+        line = updated(line, knowledge=line.knowledge.put(address, learned))
     moved = _new_address(meaning)
     if moved not in (None, address):
-        line = evolve(line, knowledge=line.knowledge.move(address, moved))
+        line = updated(line, knowledge=line.knowledge.move(address, moved))
     return line, tuple(wrong)
 
 

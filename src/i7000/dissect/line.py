@@ -7,14 +7,12 @@ Laws: every byte that is heard is in exactly one `Heard`, or in `Line.rest`. A f
 those before it. No bytes raise.
 """
 
-from attrs import evolve
-
-from i7000.arguments import as_bytes
-from i7000.dissect.heard import Heard, Line, Place
+from i7000.arguments import as_bytes, check_type
+from i7000.dissect.heard import Heard, Line, Place, updated
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_modbus
 from i7000.dissect.stream import split
-from i7000.errors import DecodeError, Fault
+from i7000.errors import ArgumentError, DecodeError, Fault
 from i7000.settings import Protocol
 
 __all__ = ["flush", "hear", "hear_frame"]
@@ -30,26 +28,29 @@ def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple
     >>> [type(it.meanings[0].message).__name__ for it in (*heard, *more)]
     ['ReadConfiguration', 'Configuration']
     """
+    check_type("line", line, Line)
     return _hear_split(line, line.rest + as_bytes("data", data), where, last=False)
 
 
 def flush(line: Line, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
     """Hear that nothing more comes for now: what is in `Line.rest` is a frame, or none."""
+    check_type("line", line, Line)
     return _hear_split(line, line.rest, where, last=True)
 
 
 def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tuple[Line, tuple[Heard, ...]]:
+    check_type("where", where, str, optional=True)
     spans, rest = split(data, line.protocol, last=last)
     found = []
     for protocol, wire, fault in spans:
         if fault is None:
-            line, heard = hear_frame(line, wire, protocol, _next(line, where))
+            line, heard = _hear(line, wire, protocol, _next(line, where))
         else:
             place = _next(line, where)
-            line = evolve(line, count=place.number)
+            line = updated(line, count=place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
-    return evolve(line, rest=rest), tuple(found)
+    return updated(line, rest=rest), tuple(found)
 
 
 def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None = None) -> tuple[Line, Heard]:
@@ -62,9 +63,17 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
     >>> heard.answers.where, heard.meanings[0].fields[1].text, line.knowledge.of(0x01).known.types
     ('frame 1', '0F, thermocouple K, -270..1372 degC', (<TypeCode.K: 15>,))
     """
-    wire = as_bytes("wire", wire)
-    place = place or _next(line)
-    line = evolve(line, count=place.number)
+    check_type("line", line, Line)
+    check_type("protocol", protocol, Protocol)
+    if place is None:
+        place = _next(line)
+    elif not isinstance(place, Place) or not isinstance(place.number, int):
+        raise ArgumentError("place", place, "Place, with a number")
+    return _hear(line, as_bytes("wire", wire), protocol, place)
+
+
+def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place) -> tuple[Line, Heard]:
+    line = updated(line, count=place.number)
     if not wire:
         return line, Heard(place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame"))
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place)

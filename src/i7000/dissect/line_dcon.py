@@ -3,13 +3,12 @@
 from functools import lru_cache
 from typing import NamedTuple
 
-from attrs import evolve
-
 from i7000 import dcon
+from i7000.dcon.frame import LONGEST_FRAME
 from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
+from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, updated
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -41,7 +40,7 @@ def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         same_as=before.place if before is not None and same else None,
         notes=notes, error=read.error, contradictions=read.contradictions,
     )  # fmt: skip
-    return evolve(line, asked=asked, unanswered=unanswered, answered=None), heard
+    return updated(line, asked=asked, unanswered=unanswered, answered=None), heard
 
 
 def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
@@ -61,10 +60,10 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
             contradictions = (*contradictions, second)
     answered = asked is not None and read.answers
     if answered or read.error is None:
-        line = evolve(line, asked=None, unanswered=None, answered=asked if answered else line.answered, answer=wire)
+        line = updated(line, asked=None, unanswered=None, answered=asked if answered else line.answered, answer=wire)
     sender = _sender(wire, address, asked)
     if sender is not None and read.dropped:
-        line = evolve(line, knowledge=line.knowledge.put(sender, module.without(read.dropped)))
+        line = updated(line, knowledge=line.knowledge.put(sender, module.without(read.dropped)))
     if sender is not None and read.error is None and len(read.meanings) == 1:
         line, wrong = learn(line, sender, read.meanings[0], place.where, read.shown)
         contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
@@ -124,8 +123,12 @@ def _dcon_address(wire: bytes) -> int | None:
     return int(digits, 16)
 
 
-@lru_cache(maxsize=_REMEMBERED)
 def _read_dcon(module: Module, wire: bytes, asked: bytes | None) -> _Read:
+    """Read a frame; one that is too long is not remembered."""
+    return (_remembered if len(wire) <= LONGEST_FRAME else _read)(module, wire, asked)
+
+
+def _read(module: Module, wire: bytes, asked: bytes | None) -> _Read:
     try:
         meanings, dropped = _dcon_meanings(module, wire, asked)
     except DecodeError as error:
@@ -146,6 +149,9 @@ def _read_dcon(module: Module, wire: bytes, asked: bytes | None) -> _Read:
     meanings = tuple(with_facts(meaning, module) for meaning in meanings)
     names = tuple(fact.name for fact in dropped)
     return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown, names)
+
+
+_remembered = lru_cache(maxsize=_REMEMBERED)(_read)
 
 
 def _dcon_meanings(module: Module, wire: bytes, asked: bytes | None) -> tuple[tuple[Meaning, ...], tuple[Fact, ...]]:

@@ -7,7 +7,7 @@ from attrs import evolve
 
 from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place
+from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, updated
 from i7000.dissect.known import Known
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -42,6 +42,11 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     address = wire[0]
     module = line.knowledge.of(address or None)
     reader, contradictions = _modbus_reader(module.known)
+    if len(wire) > modbus.LONGEST_FRAME:
+        error = reader.request.__wrapped__(wire).error  # it is too long to be remembered
+        causes = tuple(modbus_causes(wire, reader))
+        line = updated(line, requested=None, in_step=False)
+        return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, error=error, notes=causes)
     asked = line.requested
     response = ModbusRead(None)
     if asked is not None and asked.meaning is not None and asked.address != modbus.BROADCAST:
@@ -57,11 +62,11 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         )
 
     if asked and wire == asked.wire and not asked.echoed and (response.meaning is None or line.echoes):
-        line = evolve(line, requested=evolve(asked, echoed=True), echoes=True)
+        line = updated(line, requested=evolve(asked, echoed=True), echoes=True)
         same = f"the same as {asked.place.where}: a 2-wire adapter's echo, or asked again"
         return line, heard(Direction.ECHO, asked.meaning, same_as=asked.place, notes=(same,))
     if asked and response.meaning:
-        line = evolve(line, requested=None, in_step=True, echoes=asked.echoed)
+        line = updated(line, requested=None, in_step=True, echoes=asked.echoed)
         line, wrong = learn(line, address, response.meaning, place.where)
         return line, heard(Direction.RESPONSE, response.meaning, answers=asked.place, contradictions=wrong)
     request, alone = reader.request(wire), reader.alone(wire)
@@ -69,12 +74,12 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         note = _doubt(alone.meaning, response.error, asked, in_step=line.in_step)
         notes = (*((note,) if note else ()), *register_notes(request.meaning), *address_notes(address, line.knowledge))
         answered = address != modbus.BROADCAST
-        line = evolve(line, requested=Asked(place, wire, address, request.meaning), in_step=not answered)
+        line = updated(line, requested=Asked(place, wire, address, request.meaning), in_step=not answered)
         return line, heard(Direction.REQUEST, request.meaning, notes=notes)
     if alone.meaning and not response.error:
         return line, heard(Direction.RESPONSE, alone.meaning, notes=("read without its request",))
     if not alone.meaning and len(wire) >= modbus.SHORTEST_FRAME:
-        line = evolve(line, requested=None, in_step=False)
+        line = updated(line, requested=None, in_step=False)
     candidates = (alone.meaning,) if alone.meaning else ()
     direction = Direction.RESPONSE if alone.meaning else None
     causes = tuple(modbus_causes(wire, reader))
