@@ -24,6 +24,7 @@ from i7000 import (
     Unit,
     dcon,
     device,
+    dissect,
     host,
     modbus,
 )
@@ -32,7 +33,7 @@ from i7000.models import CONFIGURABLE
 from tests.spec.lint import vectors
 from tests.vectors import MESSAGES, MODBUS_MESSAGES, message_of
 
-MODULES = {"i7000": i7000, "dcon": dcon, "modbus": modbus, "host": host, "device": device}
+MODULES = {"i7000": i7000, "dcon": dcon, "modbus": modbus, "host": host, "device": device, "dissect": dissect}
 
 BASES = (
     dcon.Broadcast, dcon.Command, dcon.Message, dcon.Response, modbus.Message, modbus.Request, modbus.Response,
@@ -50,7 +51,7 @@ def _members(name: str, kind: type) -> Iterator[str]:
     for attribute in sorted({attribute for base in kind.__mro__ for attribute in vars(base)}):
         static = inspect.getattr_static(kind, attribute)
         function = getattr(static, "__func__", static)
-        ours = isinstance(function, FunctionType) and function.__module__.startswith("i7000")
+        ours = isinstance(function, FunctionType) and (function.__module__ or "").startswith("i7000")
         if ours and not attribute.startswith("_"):
             yield f"{name}.{attribute}"
 
@@ -142,6 +143,10 @@ _BUS = host.Bus[Any]()
 _OPEN, _ = host.send(_BUS, _READ, _I7018, 1.0)
 
 _EEPROM = device.factory(Model.M_7019R)
+_FACT = dissect.Fact("types", (TypeCode.K,))
+_HEARD_OF = dissect.Module()
+_KNOWLEDGE = dissect.Knowledge(_HEARD_OF, {0x01: _HEARD_OF})
+_LINE = dissect.Line(_KNOWLEDGE, i7000.Protocol.DCON)
 
 
 def _fields_of(value: Any) -> dict[str, Any]:
@@ -248,6 +253,25 @@ CALLS = (
     call("device.factory", Model.M_7019R, Firmware("B3.7")),
     call("device.power_on", _EEPROM, init_switch=False, now=1.0),
     call("device.step", _MODULE, b"#010\r", _SIGNALS, 1.0),
+    call("dissect.Fact", **_fields_of(_FACT)),
+    call("dissect.Known", **_fields_of(dissect.Known())),
+    call("dissect.Known.of", _I7018, on=dissect.Known),
+    call("dissect.Knowledge", _HEARD_OF, {0x01: _HEARD_OF}),
+    call("dissect.Knowledge.given", dissect.Known(), {0x01: dissect.Known()}, on=dissect.Knowledge),
+    call("dissect.Knowledge.move", 0x01, 0x02, on=_KNOWLEDGE),
+    call("dissect.Knowledge.of", 0x01, on=_KNOWLEDGE),
+    call("dissect.Knowledge.put", 0x01, _HEARD_OF, on=_KNOWLEDGE),
+    call("dissect.Line", **_fields_of(_LINE)),
+    call("dissect.Module", dissect.Known(), {"types": _FACT}),
+    call("dissect.Module.gives", "types", on=_HEARD_OF),
+    call("dissect.Module.learn", _FACT, on=_HEARD_OF),
+    call("dissect.Module.without", ("types",), on=_HEARD_OF),
+    call("dissect.find", "TX: $012"),
+    call("dissect.flush", _LINE, "packet 1"),
+    call("dissect.hear", _LINE, b"$012", "packet 1"),
+    call("dissect.hear_frame", _LINE, b"$012\r", i7000.Protocol.DCON, dissect.Place(1, "line 1")),
+    call("dissect.meanings", b"!01050600\r", b"$012\r", dissect.Known()),
+    call("dissect.pieces", ((1, "$012"),), i7000.Protocol.DCON),
 )  # fmt: skip
 
 # --- what is left out -------------------------------------------------------------------------------------------------
@@ -265,7 +289,8 @@ LEFT_OUT = {
             "i7000.ArgumentError", "i7000.DecodeError", "i7000.EncodeError", "i7000.I7000Error",
             "i7000.InvalidValueError", "i7000.StateError", "i7000.Noise", "modbus.Plan", "modbus.Register",
             "modbus.LogRecord", "host.Answered", "host.Declined", "host.Late", "host.Rejected", "host.Sent",
-            "host.TimedOut", "host.Transmit", "device.Heard", "device.Record",
+            "host.TimedOut", "host.Transmit", "device.Heard", "device.Record", "dissect.ChannelReading", "dissect.Field", "dissect.Fit", "dissect.Found",
+            "dissect.Heard", "dissect.Item", "dissect.Meaning", "dissect.Piece", "dissect.Place",
         ),
         _HANDED_OUT,
     ),

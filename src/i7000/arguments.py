@@ -4,12 +4,21 @@ Laws: bytes, bytearray and memoryview are accepted as bytes; results never share
 wrong type raises `ArgumentError`; a value out of range does not.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 from i7000.errors import ArgumentError, InvalidValueError, StateError
 
-__all__ = ["as_bytes", "as_tuple", "check_clock", "check_int", "check_seconds", "check_type", "is_number"]
+__all__ = [
+    "as_bytes",
+    "as_tuple",
+    "check_clock",
+    "check_fields",
+    "check_int",
+    "check_seconds",
+    "check_type",
+    "is_number",
+]
 
 T = TypeVar("T")
 
@@ -63,6 +72,18 @@ def check_int(name: str, value: object) -> None:
     """
     if not isinstance(value, int) or isinstance(value, bool):
         raise ArgumentError(name, value, "int")
+
+
+def check_fields(instance: object, kinds: Mapping[str, tuple[type, ...]]) -> None:
+    """Check that fields are instances of the classes that are named for them.
+
+    Errors: `InvalidValueError`.
+    """
+    for name, allowed in kinds.items():
+        value = getattr(instance, name)
+        if not isinstance(value, allowed):
+            names = " or ".join(kind.__name__ for kind in allowed)
+            raise InvalidValueError(name, value, f"an instance of {names}", "")
 
 
 def is_number(value: object) -> bool:

@@ -34,6 +34,9 @@ def exchange(request: modbus.Request[Any], response: modbus.Response) -> tuple[b
     return modbus.encode(request, profile), modbus.encode(response, profile)
 
 
+VERSION = exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0x0B, 3, 7))
+
+
 def read_register(address: int, *words: int) -> tuple[bytes, bytes]:
     return exchange(modbus.ReadHoldingRegisters(1, address, len(words)), modbus.HoldingRegisters(1, words))
 
@@ -77,7 +80,7 @@ def written(address: int, *words: int) -> tuple[bytes, bytes]:
             },
         ),
         (exchange(modbus.ReadModuleName(1), modbus.ModuleName(1, bytes.fromhex("00701900"))), {"models": M_7019}),
-        (exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0x0B, 3, 7)), {"firmware": Firmware("B3.7")}),
+        (VERSION, {"firmware": Firmware("B3.7")}),
         (exchange(modbus.ReadFirmwareVersion(1), modbus.FirmwareVersion(1, 0, 0, 0)), {}),
         (exchange(modbus.ReadTypeCode(1, 2), modbus.TypeCodeSetting(1, 0x0F)), {"types": (None, None, K, None)}),
         (exchange(modbus.SetTypeCode(1, 2, 0x0F), modbus.TypeCodeResult(1, 0)), {"types": (None, None, K, None)}),

@@ -10,10 +10,12 @@ from attrs import evolve
 
 from i7000 import dcon, describe, modbus
 from i7000.dissect.dcon import DconReader
+from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.known import Knowledge, Known
 from i7000.dissect.meaning import Meaning
 from i7000.dissect.modbus import ModbusReader
 from i7000.dissect.shapes import is_shaped
+from i7000.dissect.words import models_words
 from i7000.errors import DecodeError
 from i7000.message import Message
 from i7000.settings import DataFormat
@@ -28,14 +30,14 @@ _MOST_STRIPPED = 20
 def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | None) -> Iterator[str]:
     """Yield what is likely to be the cause that a DCON frame cannot be read."""
     body = wire.rstrip(b"\r\n")
-    if wire.endswith(b"\n"):
-        yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
-    elif not wire.endswith(b"\r"):
-        yield "no carriage return (0D) at its end"
     with suppress(DecodeError):
         modbus.unseal(wire)
         yield "the CRC is right: a Modbus RTU frame"
         return
+    if wire.endswith(b"\n"):
+        yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
+    elif not wire.endswith(b"\r"):
+        yield "no carriage return (0D) at its end"
     if _is_noise(wire):
         yield "noise: another baud rate or parity?"
         return
@@ -45,6 +47,7 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
     if asked is not None and body[:1] == b">":
         yield from _format_causes(body, known, asked)
+        yield from _model_causes(body, known, asked)
         for count in range(1, _MOST_STRIPPED):
             if _name(reader, body + _BLANK_FIELD.encode() * count, asked):
                 channels = "the last channel is" if count == 1 else f"the last {count} channels are"
@@ -54,12 +57,22 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
 
 def _format_causes(body: bytes, known: Known, asked: bytes) -> Iterator[str]:
     for other in DataFormat if known.data_format is not None else ():
-        if _name(DconReader(evolve(known, data_format=other)), body, asked):
+        if _name(reader_of(evolve(known, data_format=other)), body, asked):
             yield f"it can be read in data format {other.name.lower()}"
 
 
+def _model_causes(body: bytes, known: Known, asked: bytes) -> Iterator[str]:
+    if known.model is not None:
+        with suppress(DecodeError):
+            (meaning, *_) = reader_of(Known(checksum=known.checksum)).meanings(body + b"\r", asked)
+            if known.model not in meaning.models:
+                name = type(meaning.message).__name__
+                models = models_words(meaning.models, meaning.section)
+                yield f"it is {name} of other models than an {known.model.value}: {models}"
+
+
 def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator[str]:
-    plain = DconReader(evolve(known, checksum=False))
+    plain = reader_of(evolve(known, checksum=False))
     shorter, last = body[:-2], body[-2:].decode("ascii", "replace")
     if known.checksum and _name(plain, body, asked):
         yield f"without a checksum it is {_name(plain, body, asked)}; the checksum would be {dcon.checksum(body):02X}"
@@ -115,8 +128,8 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
         yield f"the bytes of the CRC are in the wrong order: the low byte comes first, {_crc(wire[:-2])}"
     elif cut:
         yield f"damaged? {cut} would have the CRC {_crc(wire[:-2])}"
-    elif len(wire) >= modbus.SHORTEST_FRAME and modbus.seal(wire[:-1])[-2] == wire[-1] and _meant(reader, wire[:-1]):
-        yield f"cut: {_meant(reader, wire[:-1])} without its last byte, {modbus.seal(wire[:-1])[-1]:02X}"
+    elif cut_name := next(filter(None, (_cut(reader, wire[start:]) for start in (0, 1))), None):
+        yield cut_name
     elif len(wire) >= modbus.SHORTEST_FRAME and sum(byte in _LIKE_NOISE for byte in wire) * 2 > len(wire):
         yield "noise: another baud rate or parity?"
 
@@ -139,6 +152,15 @@ def _meant(reader: ModbusReader, body: bytes) -> str | None:
     frame = modbus.seal(body)
     meaning = reader.request(frame).meaning or reader.alone(frame).meaning
     return None if meaning is None else type(meaning.message).__name__
+
+
+def _cut(reader: ModbusReader, wire: bytes) -> str | None:
+    """Say which message a frame without its last byte is, if it is one."""
+    if len(wire) < modbus.SHORTEST_FRAME:
+        return None
+    low, high = modbus.seal(wire[:-1])[-2:]
+    name = _meant(reader, wire[:-1]) if low == wire[-1] else None
+    return name and f"cut: {name} without its last byte, {high:02X}"
 
 
 def _crc(body: bytes) -> str:

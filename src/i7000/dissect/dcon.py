@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from attrs import evolve
 
 from i7000 import DataFormat, DecodeError, Fault, Profile, Status, TypeCode, dcon
-from i7000.arguments import as_bytes
+from i7000.arguments import as_bytes, check_type
 from i7000.availability import Availability
 from i7000.dcon.codec import deepest
 from i7000.dissect.known import Fact, Known, Origin
@@ -196,12 +196,13 @@ def meanings(frame: bytes, asked: bytes | None = None, known: Known = _NOTHING_K
     r"""Return everything that a DCON frame can mean, by section; as the response to `asked`, if that is given.
 
     Shape: frames with and without checksum, and all data formats, are considered, unless they are known.
-    Errors: `DecodeError` if it means nothing.
+    Errors: `DecodeError` if it means nothing; `EncodeError` if no module is as `known` says.
     Manual: 2; E7, E8, E93.
 
     >>> [meaning.message for meaning in meanings(b"#0184\r")]
     [ReadAnalogInputs(address=0x01), ReadAnalogInput(address=0x01, channel=132)]
     """
+    check_type("known", known, Known)
     frame = as_bytes("frame", frame)
     if not frame:
         raise DecodeError(Fault.LENGTH, frame, allowed="a frame")

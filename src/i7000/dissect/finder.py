@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import NamedTuple
 
+from i7000.arguments import check_type
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import SHORTEST_RUN, good_in_run, in_run
 from i7000.dissect.in_text import in_text
@@ -56,6 +57,7 @@ def find(text: str) -> tuple[Found, ...]:
     >>> [found.wire.hex() for found in find("12:00:01 TX 01:04:00:00:00:01:31:CA -> ok")]
     ['01040000000131ca']
     """
+    check_type("text", text, str)
     text = without_end(text)
     plain = find_plain(text)
     return (Found(*plain),) if plain else read_line(text).found

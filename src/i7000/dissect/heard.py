@@ -1,16 +1,18 @@
 """What was heard of a line so far, and what was made of each frame."""
 
 from enum import StrEnum
-from typing import NamedTuple
+from types import NoneType
+from typing import Any, NamedTuple
 
 from attrs import field, frozen
 
+from i7000.arguments import check_fields
 from i7000.dissect.known import Knowledge
 from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
 
-__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests"]
+__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "updated"]
 
 
 class Place(NamedTuple):
@@ -35,7 +37,7 @@ class Direction(StrEnum):
     """The adapter of the host, which hears what it sends."""
 
 
-@frozen(eq=False)
+@frozen
 class Heard:
     """What was made of a frame, or of bytes that are none."""
 
@@ -51,7 +53,7 @@ class Heard:
     same_as: Place | None = None
     """The frame of which it is an echo."""
     notes: tuple[str, ...] = ()
-    error: DecodeError | None = None
+    error: DecodeError | None = field(default=None, eq=str)
     """What is wrong with it."""
     candidates: tuple[Meaning, ...] = ()
     """What a frame would mean by itself that is wrong where it stands."""
@@ -64,7 +66,7 @@ class Heard:
         return self.error is None and not self.contradictions
 
 
-@frozen(eq=False)
+@frozen
 class Asked:
     """The command or request before."""
 
@@ -100,9 +102,12 @@ class Requests(NamedTuple):
     """Whether the adapter hears what it sends."""
 
 
-@frozen
+@frozen(slots=False)  # so that a copy is one dictionary
 class Line:
-    """Both sides of a line, as far as they were heard."""
+    """Both sides of a line, as far as they were heard.
+
+    Errors: `InvalidValueError` for fields of other types.
+    """
 
     knowledge: Knowledge = field(factory=Knowledge)
     protocol: Protocol | None = None
@@ -113,3 +118,24 @@ class Line:
     """The number of the last frame."""
     commands: Commands = field(factory=Commands)
     requests: Requests = field(factory=Requests)
+
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, _KINDS)
+
+
+_KINDS: dict[str, tuple[type, ...]] = {
+    "knowledge": (Knowledge,),
+    "protocol": (Protocol, NoneType),
+    "rest": (bytes,),
+    "count": (int,),
+    "commands": (Commands,),
+    "requests": (Requests,),
+}
+"""What each field of `Line` can be."""
+
+
+def updated(line: Line, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
+    """Return a line of which more was heard; its fields are not looked at again, as `evolve` would."""
+    copy = object.__new__(Line)
+    object.__setattr__(copy, "__dict__", {**line.__dict__, **changes})
+    return copy

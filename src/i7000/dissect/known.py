@@ -8,16 +8,17 @@ changed beats what was given. Facts never make a combination that no module has.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from enum import Enum, StrEnum
-from functools import cached_property
+from enum import StrEnum
+from functools import cached_property, lru_cache
 from itertools import product
-from types import MappingProxyType
+from types import MappingProxyType, NoneType
 from typing import Any
 
 from attrs import evolve, field, fields_dict, frozen
 
 from i7000 import describe
-from i7000.errors import EncodeError
+from i7000.arguments import as_tuple, check_fields, check_int, check_type
+from i7000.errors import ArgumentError, EncodeError, InvalidValueError
 from i7000.models import Firmware, Model
 from i7000.profile import LAST_LEGACY, Profile
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
@@ -41,9 +42,21 @@ class Known:
     models: tuple[Model, ...] = ()
     """The models that it can be, where `model` is None; all if there are none."""
 
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, _KINDS)
+        if self.types is not None and not (self.types and {TypeCode, NoneType}.issuperset(map(type, self.types))):
+            raise InvalidValueError("types", self.types, "members of TypeCode, or None, at least one", "1.11")
+        if not {Model}.issuperset(map(type, self.models)):
+            raise InvalidValueError("models", self.models, "members of Model", "")
+
     @classmethod
     def of(cls, profile: Profile) -> "Known":
-        """Return everything that a profile says."""
+        """Return everything that a profile says.
+
+        Errors: `InvalidValueError` for what is no profile.
+        """
+        if not isinstance(profile, Profile):
+            raise InvalidValueError("profile", profile, "an instance of Profile", "")
         return cls(
             profile.model,
             profile.firmware,
@@ -74,44 +87,27 @@ class Known:
             checksum=bool(self.checksum),
             single_ended=bool(self.single_ended),
         )
-        return fresh if self.types is None else self._typed(fresh)
+        return fresh if self.types is None else _typed(self.types, fresh)
 
-    @cached_property
+    @property
     def all(self) -> tuple[Profile, ...]:
         """Every profile that fits, of every model if none is known; with types only if they are known.
 
         Errors: `EncodeError` if there is none.
         """
-        found = []
-        error = None
-        for model, firmware, single_ended in product(
-            self._models,
-            (self.firmware,) if self.firmware else (None, LAST_LEGACY),
-            _either(self.single_ended),
-        ):
-            try:
-                profile = Profile(model, firmware=firmware, single_ended=single_ended, type_codes=())
-                if profile.firmware == self.firmware or profile.legacy_sentinels:
-                    found.append(self._typed(profile))
-            except EncodeError as refused:
-                error = error or refused
-        if error is not None and not found:
-            raise error
-        formats = DataFormat if self.data_format is None else (self.data_format,)
-        return tuple(
-            evolve(profile, data_format=data_format, checksum=checksum)
-            for profile, data_format, checksum in product(found, formats, _either(self.checksum))
-        )
+        return _all(self)
 
-    @cached_property
+    @property
     def modbus(self) -> tuple[Profile, ...]:
         """Every profile that fits, of all models that speak Modbus if none is known; without types then.
 
         Errors: `EncodeError` for a model that does not speak it, or a combination that no module has.
         """
-        models = [model for model in self._models if Protocol.MODBUS_RTU in model.protocols]
+        models = [model for model in self.possible_models if Protocol.MODBUS_RTU in model.protocols]
         if not models:
-            raise EncodeError("model", self._models[0].value, "the M-7000 series, which alone speaks Modbus RTU", "3")
+            raise EncodeError(
+                "model", self.possible_models[0].value, "the M-7000 series, which alone speaks Modbus RTU", "3"
+            )
         found = []
         error = None
         for model, single_ended in product(models, _either(self.single_ended)):
@@ -126,21 +122,61 @@ class Known:
         return tuple(found)
 
     @property
-    def _models(self) -> tuple[Model, ...]:
+    def possible_models(self) -> tuple[Model, ...]:
+        """The models that it can be."""
         return (self.model,) if self.model else self.models or tuple(Model)
 
-    def _typed(self, profile: Profile) -> Profile:
-        types = self.types or ()
-        if len(types) == 1:
-            types *= profile.channels
-        if self.partial:
-            rest = types[profile.channels :]
-            if any(rest):
-                raise EncodeError("types", len(types), f"at most {profile.channels}: {profile.name}", "1.3")
-            types = (*types, *[None] * profile.channels)[: profile.channels]
-            defaults = profile.type_codes
-            types = tuple(map(_first, types, defaults)) if defaults else ()
-        return evolve(profile, type_codes=types)  # type: ignore[arg-type] # There is no None in it now.
+
+_KINDS: dict[str, tuple[type, ...]] = {
+    "model": (Model, NoneType),
+    "firmware": (Firmware, NoneType),
+    "types": (tuple, NoneType),
+    "data_format": (DataFormat, NoneType),
+    "checksum": (bool, NoneType),
+    "single_ended": (bool, NoneType),
+    "modbus_data_format": (ModbusDataFormat, NoneType),
+    "models": (tuple,),
+}
+"""What each field of `Known` can be."""
+_REMEMBERED = 64
+"""Combinations of what is known of which the profiles are kept: of an unknown module they are hundreds."""
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _all(known: Known) -> tuple[Profile, ...]:
+    found = []
+    error = None
+    for model, firmware, single_ended in product(
+        known.possible_models,
+        (known.firmware,) if known.firmware else (None, LAST_LEGACY),
+        _either(known.single_ended),
+    ):
+        try:
+            profile = Profile(model, firmware=firmware, single_ended=single_ended, type_codes=())
+            if profile.firmware == known.firmware or profile.legacy_sentinels:
+                found.append(_typed(known.types, profile))
+        except EncodeError as refused:
+            error = error or refused
+    if error is not None and not found:
+        raise error
+    formats = DataFormat if known.data_format is None else (known.data_format,)
+    return tuple(
+        evolve(profile, data_format=data_format, checksum=checksum)
+        for profile, data_format, checksum in product(found, formats, _either(known.checksum))
+    )
+
+
+def _typed(known: tuple[TypeCode | None, ...] | None, profile: Profile) -> Profile:
+    """Return a profile with the types that are known, and defaults for the others if there are any."""
+    types = known or ()
+    if len(types) == 1:
+        types *= profile.channels
+    if None in types:
+        if any(types[profile.channels :]):
+            raise EncodeError("types", len(types), f"at most {profile.channels}: {profile.name}", "1.3")
+        types = (*types, *[None] * profile.channels)[: profile.channels]
+        types = tuple(map(_first, types, profile.type_codes))
+    return evolve(profile, type_codes=types)  # type: ignore[arg-type] # There is no None in it now.
 
 
 def _first(known: TypeCode | None, default: TypeCode) -> TypeCode:
@@ -178,22 +214,45 @@ class Fact:
     changed: bool = False
     """Whether the frame accepted a change, so that what was given no longer holds."""
 
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, {"name": (str,), "origin": (Origin,), "where": (str,), "changed": (bool,)})
+        try:
+            hash(self.value)
+        except TypeError:
+            raise InvalidValueError("value", self.value, "what can be hashed", "") from None
+
 
 _KNOWN = fields_dict(Known)
 _NOTHING: Mapping[Any, Any] = MappingProxyType({})
 
 
 def _unchanging(mapping: Mapping[Any, Any]) -> Mapping[Any, Any]:
-    return MappingProxyType(dict(mapping))
+    """Return a copy that does not change; what is no mapping is refused later."""
+    return MappingProxyType(dict(mapping)) if isinstance(mapping, Mapping) else mapping
 
 
-@frozen(eq=False)
+def _items(mapping: Mapping[Any, Any]) -> frozenset[tuple[Any, Any]]:
+    """Return what a mapping is compared and hashed by."""
+    return frozenset(mapping.items())
+
+
+@frozen(cache_hash=True)
 class Module:
-    """What is known of one module."""
+    """What is known of one module.
+
+    Errors: `EncodeError` for a combination that no module has, `InvalidValueError` for fields of other types.
+    """
 
     given: Known = Known()
-    facts: Mapping[str, Fact] = field(factory=dict, converter=_unchanging)
+    facts: Mapping[str, Fact] = field(factory=dict, converter=_unchanging, eq=_items)
     """What was learned, by the name of the fact."""
+
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, {"given": (Known,), "facts": (Mapping,)})
+        for name, fact in self.facts.items():
+            if not isinstance(fact, Fact) or fact.name != name:
+                raise InvalidValueError("facts", fact, "facts by their names", "")
+        _ = self.known.all, self.known.default
 
     @cached_property
     def known(self) -> Known:
@@ -211,48 +270,73 @@ class Module:
         )
 
     def gives(self, name: str) -> bool:
-        """Return whether the caller knows something."""
-        return getattr(self.given, name, None) not in (None, ())
+        """Return whether the caller knows something: an attribute of `Known`."""
+        check_type("name", name, str)
+        return name in _KNOWN and getattr(self.given, name) not in (None, ())
 
     def learn(self, fact: Fact) -> "Module":
         """Add a fact, unless no module has the combination that it makes: then it is dropped."""
-        learned = Module(self.given, {**self.facts, fact.name: fact})
+        check_type("fact", fact, Fact)
         try:
-            _ = learned.known.all, learned.known.default
+            return Module(self.given, {**self.facts, fact.name: fact})
         except EncodeError:
             return self
-        return learned
 
     def without(self, names: Iterable[str]) -> "Module":
         """Drop facts that were learned."""
-        dropped = frozenset(names)
+        dropped = as_tuple("names", names)
         return Module(self.given, {name: fact for name, fact in self.facts.items() if name not in dropped})
 
 
-@frozen(eq=False)
+@frozen
 class Knowledge:
-    """What is known of all modules on a line."""
+    """What is known of all modules on a line.
+
+    Errors: `InvalidValueError` for fields of other types, and for addresses beyond 00..FF.
+    """
 
     others: Module = field(factory=Module)
     """What is known of modules that are not in `modules`."""
-    modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging)
+    modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging, eq=_items)
     """Modules by address."""
+
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, {"others": (Module,), "modules": (Mapping,)})
+        for address, module in self.modules.items():
+            if not isinstance(address, int) or isinstance(address, bool) or not 0 <= address <= 0xFF:
+                raise InvalidValueError("address", address, "00..FF", "")
+            if not isinstance(module, Module):
+                raise InvalidValueError("module", module, "an instance of Module", "")
 
     @classmethod
     def given(cls, others: Known, by_address: Mapping[int, Known] = _NOTHING) -> "Knowledge":
-        """Return what the caller knows: of the modules at some addresses, and of those at any other."""
+        """Return what the caller knows: of the modules at some addresses, and of those at any other.
+
+        Errors: `EncodeError` for a combination that no module has.
+        """
+        check_type("others", others, Known)
+        check_type("by_address", by_address, Mapping)
         return cls(Module(others), {address: Module(known) for address, known in by_address.items()})
 
     def of(self, address: int | None) -> Module:
         """Return what is known of the module at an address; None: of any."""
-        return self.others if address is None else self.modules.get(address, self.others)
+        if address is None:
+            return self.others
+        try:
+            return self.modules.get(address, self.others)
+        except TypeError:
+            raise ArgumentError("address", address, "int or None") from None
 
     def put(self, address: int, module: Module) -> "Knowledge":
         """Replace what is known of the module at an address."""
+        check_int("address", address)
+        check_type("module", module, Module)
         return Knowledge(self.others, {**self.modules, address: module})
 
     def move(self, address: int, new_address: int) -> "Knowledge":
         """Take what is known of a module to its new address; of another one at the old address nothing is known."""
+        check_int("address", address)
+        check_int("new_address", new_address)
         kept = {at: module for at, module in self.modules.items() if at != address}
         return Knowledge(self.others, {**kept, new_address: self.of(address)})
 
@@ -271,24 +355,22 @@ def lacking_type(known: Known, code: int | None) -> str | None:
 
 def fact_words(fact: Fact) -> str:
     """Return a fact in words."""
-    value = fact.value
     if fact.name in _WORDS:
-        return _WORDS[fact.name](value)
-    shown = value.name.lower() if isinstance(value, Enum) else value
-    return f"{fact.name.replace('_', ' ')} {shown}"
+        return _WORDS[fact.name](fact.value)
+    return f"{fact.name.replace('_', ' ')} {describe.value(fact.value)}"
 
 
-def _types_words(types: tuple[TypeCode | None, ...]) -> str:
-    codes = dict.fromkeys(code for code in types if code is not None)
-    return "type " + " ".join(f"{code:02X} ({code.name})" for code in codes)
+def _type_words(types: Iterable[TypeCode | None]) -> str:
+    return "type " + " ".join(f"{code:02X} ({code.name})" for code in dict.fromkeys(types) if code is not None)
 
 
 _WORDS: Mapping[str, Callable[[Any], str]] = {
-    "types": _types_words,
-    "checksum": lambda checksum: "with a checksum" if checksum else "without a checksum",
-    "single_ended": lambda single_ended: "single-ended" if single_ended else "differential",
-    "model": lambda model: f"an {model.value}",
-    "models": lambda models: "an " + " or ".join(model.value for model in models),
-    "line_settings": lambda line: f"line settings {describe.line_settings(line)}",
-    "mask": lambda mask: f"mask {describe.mask(mask)}",
+    "types": _type_words,
+    "checksum": lambda value: "with a checksum" if value else "without a checksum",
+    "single_ended": lambda value: "single-ended" if value else "differential",
+    "model": lambda value: f"an {value.value}",
+    "models": lambda value: "an " + " or ".join(model.value for model in value),
+    "line_settings": lambda value: f"line settings {describe.line_settings(value)}",
+    "mask": lambda value: f"mask {describe.mask(value)}",
 }
+"""Facts whose name and value alone would not be words."""

@@ -4,7 +4,7 @@ import re
 from functools import cache, cached_property
 from typing import Any, NamedTuple
 
-from attrs import frozen
+from attrs import field, frozen
 
 from i7000 import dcon
 from i7000.dissect.known import Fact, Origin
@@ -58,7 +58,7 @@ class Item(NamedTuple):
     type_code: TypeCode | None = None
 
 
-@frozen(eq=False)
+@frozen
 class Fit:
     """The profiles that a meaning fits, in the order in which they are tried."""
 
@@ -81,22 +81,25 @@ class Fit:
         return tuple(sorted({profile.data_format for profile in self.profiles}))
 
 
-@frozen(eq=False)
+@frozen(cache_hash=True)
 class Meaning:
-    """One thing that a frame can mean."""
+    """One thing that a frame can mean.
+
+    Its hash is that of the messages, which is soon computed.
+    """
 
     message: Message
     command: Message | None
     """The command or request that it answers."""
-    fit: Fit
+    fit: Fit = field(hash=False)
     """The profiles it was read with."""
-    readings: tuple[ChannelReading, ...] = ()
-    items: tuple[Item, ...] = ()
+    readings: tuple[ChannelReading, ...] = field(default=(), hash=False)
+    items: tuple[Item, ...] = field(default=(), hash=False)
     """The coils and registers that it touches."""
-    facts: tuple[Fact, ...] = ()
+    facts: tuple[Fact, ...] = field(default=(), hash=False)
     """What its readings rest on: ``types`` and the data format."""
-    notes: tuple[str, ...] = ()
-    misfit: DecodeError | None = None
+    notes: tuple[str, ...] = field(default=(), hash=False)
+    misfit: DecodeError | None = field(default=None, eq=str, hash=False)
     """Why the first reading without a value cannot be one of its type."""
 
     @property

@@ -8,12 +8,14 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from i7000 import dcon, modbus
+from i7000.arguments import check_type
 from i7000.dissect.damage import in_place_of_a_frame
 from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
 from i7000.dissect.repeats import is_repeat
+from i7000.errors import ArgumentError
 from i7000.settings import Protocol
 
 __all__ = ["Piece", "pieces"]
@@ -56,6 +58,15 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
     """
+    check_type("protocol", protocol, Protocol, optional=True)
+    try:
+        numbered = iter(lines)
+    except TypeError:
+        raise ArgumentError("lines", lines, "an iterable") from None
+    return _pieces(numbered, protocol)
+
+
+def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iterator[Piece]:
     marked = _Repeats().marked
     parts: list[_Part] = []
     for number, line in lines:

@@ -17,7 +17,7 @@ from typing import Any, Generic, Never, TypeVar, overload
 from attrs import evolve, field
 
 from i7000 import dcon, modbus
-from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_seconds, check_type, is_number
+from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_fields, check_seconds, check_type, is_number
 from i7000.errors import DecodeError, InvalidValueError, Noise, StateError
 from i7000.frozen import frozen
 from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
@@ -111,10 +111,7 @@ class Bus(Generic[R]):
     """The time of the last call; it is not part of equality."""
 
     def __attrs_post_init__(self) -> None:
-        for name, kinds in _KINDS.items():
-            if not isinstance(getattr(self, name), kinds):
-                allowed = " or ".join(kind.__name__ for kind in kinds)
-                raise InvalidValueError(name, getattr(self, name), f"an instance of {allowed}", "")
+        check_fields(self, _KINDS)
         for name in _TIMES:
             check_seconds(name, getattr(self, name))
         if not isinstance(self.line.baud_rate, BaudRate):

@@ -1,0 +1,211 @@
+"""The likely causes of frames that cannot be decoded, in the words that are printed."""
+
+import pytest
+
+from i7000 import DataFormat, Model, Protocol, TypeCode, modbus
+from i7000.dissect import Known, hear_frame
+from tests.dissect.hearing import last_heard, line_of
+
+I_7018, I_7019R = Known(Model.I_7018), Known(Model.I_7019R, types=(TypeCode.K,))
+SIX = "+0025.1+0025.3+0024.9+0025.9-0003.2+0101.7"
+
+
+def hexed(digits: str) -> bytes:
+    return bytes.fromhex(digits)
+
+
+# --- Modbus -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("wire", "said"),
+    [
+        ("01 04 00 00 00 01", "no CRC? ReadInputRegisters without it, which would be 31 CA"),
+        (
+            "00 07 00 00 00 06 01 04 00 00 00 08",
+            "a Modbus TCP header (transaction 7, 6 bytes follow): these modules speak RTU; "
+            "the rest is ReadInputRegisters",
+        ),
+        (
+            "00 07 00 00 00 04 01 FF 00 00",
+            "a Modbus TCP header (transaction 7, 4 bytes follow): these modules speak RTU",
+        ),
+        ("23 30 31 0D", "the shape of a DCON frame"),
+        (
+            "01 04 00 00 00 01 CA 31",
+            "the bytes of the CRC are in the wrong order: the low byte comes first, 31 CA",
+        ),
+        ("01 04 00 00 00 01 CA 32", "damaged? ReadInputRegisters would have the CRC 31 CA"),
+        ("01 04 00 00 00 01 31", "cut: ReadInputRegisters without its last byte, CA"),
+        ("00 1E 04 02 0B 61 EA", "cut: InputRegisters without its last byte, 2A"),
+        ("00 80 FF 00 FF 80 FF 00", "noise: another baud rate or parity?"),
+    ],
+)
+def test_the_cause_that_a_frame_cannot_be_read_by_modbus_is_named(wire: str, said: str) -> None:
+    heard = last_heard(hexed(wire))
+
+    assert heard.notes == (said,)
+    assert heard.error is not None
+
+
+@pytest.mark.parametrize("wire", ["01", "FF FF", "01 02 03 04 05 06 07", "01" * 300])
+def test_where_no_cause_is_likely_none_is_named(wire: str) -> None:
+    assert last_heard(hexed(wire)).notes == ()
+
+
+def test_where_the_crc_is_right_the_error_says_what_is_wrong() -> None:
+    heard = last_heard(modbus.seal(hexed("01 19 00")))
+
+    assert heard.notes == ()
+    assert str(heard.error).startswith("function at byte 1")
+
+
+@pytest.mark.parametrize(
+    ("request_body", "said"),
+    [
+        ("01 03 9C 41 00 01", "40001 is a number of the manual: in a frame it is address 0 (3.2)"),
+        ("01 04 75 31 00 08", "30001 is a number of the manual: in a frame it is address 0 (3.2)"),
+        ("01 06 9E 29 00 01", "40489 is a number of the manual: in a frame it is address 488 (3.2)"),
+        ("01 02 27 11 00 08", "10001 is a number of the manual: in a frame it is address 0 (3.2)"),
+    ],
+)
+def test_a_number_of_the_manual_that_is_used_as_an_address_is_noticed(request_body: str, said: str) -> None:
+    heard = last_heard(modbus.seal(hexed(request_body)))
+
+    assert said in heard.notes
+    assert heard.error is None
+
+
+@pytest.mark.parametrize("body", ["01 03 00 00 00 01", "01 03 9C 40 00 01", "01 03 C3 50 00 01", "01 01 9C 41 00 01"])
+def test_other_addresses_are_not_taken_for_numbers_of_the_manual(body: str) -> None:
+    assert not any("number of the manual" in note for note in last_heard(modbus.seal(hexed(body))).notes)
+
+
+# --- DCON -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("known", "frame", "said"),
+    [
+        (I_7018, "$012B6", "B6 in place of a checksum? that of ReadConfiguration would be B7"),
+        (
+            Known(Model.I_7018, checksum=False),
+            "$012B7",
+            "B7 is the checksum of ReadConfiguration; no checksum was expected",
+        ),
+        (
+            Known(Model.I_7018, checksum=True),
+            "$012",
+            "without a checksum it is ReadConfiguration; the checksum would be B7",
+        ),
+        (
+            Known(Model.I_7018, checksum=True),
+            "$012B6",
+            "B6 in place of a checksum? that of ReadConfiguration would be B7",
+        ),
+        (I_7018, "$0aM", "lower case: in upper case it is ReadModuleName"),
+        (I_7018, "$01ÿ\xff\xff\xff\xff\xff", "noise: another baud rate or parity?"),
+    ],
+)
+def test_the_cause_that_a_command_cannot_be_read_is_named(known: Known, frame: str, said: str) -> None:
+    heard = last_heard(frame, known=known)
+
+    assert heard.notes == (said,)
+    assert heard.error is not None
+
+
+@pytest.mark.parametrize(
+    ("wire", "said"),
+    [
+        (b"#01\n", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"),
+        (b"#01\r\n", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"),
+        (b"#01", "no carriage return (0D) at its end"),
+        (bytes.fromhex("01040000000131CA"), "the CRC is right: a Modbus RTU frame"),
+    ],
+)
+def test_the_cause_that_the_end_of_a_frame_is_not_that_of_dcon_is_named(wire: bytes, said: str) -> None:
+    _, heard = hear_frame(line_of(I_7018), wire, Protocol.DCON)
+
+    assert heard.notes == (said,)
+    assert heard.error is not None
+
+
+@pytest.mark.parametrize(
+    ("known", "report", "said"),
+    [
+        (I_7019R, SIX + "+0000.0", "7 blanks short: the last channel is disabled, and the log has lost the blanks?"),
+        (I_7019R, SIX, "14 blanks short: the last 2 channels are disabled, and the log has lost the blanks?"),
+        (
+            I_7018,
+            "+0025.1" * 10,
+            "it is AnalogInputs of other models than an I-7018: I-7017Z, M-7017Z, I-7018Z, M-7018Z, M-7019Z",
+        ),
+        (
+            Known(Model.I_7018, data_format=DataFormat.ENGINEERING),
+            "7FFF" * 8,
+            "it can be read in data format hex",
+        ),
+    ],
+)
+def test_the_cause_that_a_report_cannot_be_read_is_named(known: Known, report: str, said: str) -> None:
+    heard = last_heard("#01", f">{report}", known=known)
+
+    assert said in heard.notes
+    assert heard.error is not None
+
+
+def test_a_report_that_nothing_explains_has_no_cause() -> None:
+    assert last_heard("#01", ">+0025.1+00", known=Known()).notes == ()
+
+
+# --- addresses --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("known_at", "command", "said"),
+    [
+        (0x10, "#16", "no module at 16h (22) is known, but one at 10h (16): in decimal?"),
+        (0x0A, "#10", "no module at 10h (16) is known, but one at 0Ah (10): in decimal?"),
+    ],
+)
+def test_an_address_in_decimal_is_noticed(known_at: int, command: str, said: str) -> None:
+    assert last_heard(command, by_address={known_at: I_7018}).notes == (said,)
+
+
+@pytest.mark.parametrize("command", ["#0A", "#11", "#**"])
+def test_an_address_of_a_known_module_or_of_none_like_it_is_not_doubted(command: str) -> None:
+    assert last_heard(command, by_address={0x0A: I_7018}).notes == ()
+
+
+def test_an_address_in_decimal_is_noticed_by_modbus_too() -> None:
+    known = Known(Model.M_7018)
+
+    assert (
+        "no module at 16h (22) is known, but one at 10h (16): in decimal?"
+        in last_heard(modbus.encode(modbus.ReadInputRegisters(0x16, 0, 1)), by_address={0x10: known}).notes
+    )
+
+
+# --- types that a model does not have ---------------------------------------------------------------------------------
+
+
+def test_a_type_that_is_set_and_that_the_model_does_not_have_is_noticed() -> None:
+    heard = last_heard("%0101080600", known=I_7018)
+
+    assert heard.notes == ("type 08, -10..10 V: none that an I-7018 can have; it answers ?AA",)
+    assert heard.error is None
+
+
+def test_a_type_that_is_read_and_that_the_model_does_not_have_contradicts_it() -> None:
+    assert last_heard("!01080600", known=I_7018).notes == (
+        "type 08, -10..10 V: none that an I-7018 can have; another model?",
+    )
+    assert last_heard("$012", "!01080600", known=I_7018).contradictions == (
+        "type 08, -10..10 V: none that an I-7018 can have; another model?",
+    )
+
+
+def test_the_code_of_different_types_is_one_that_every_model_can_have() -> None:
+    heard = last_heard("$012", "!01FF0600", known=Known(Model.I_7019R))
+
+    assert (heard.notes, heard.contradictions) == ((), ())
