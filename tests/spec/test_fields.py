@@ -132,7 +132,7 @@ TOLD_ONLY = [
 
 
 @pytest.mark.parametrize(("row", "field"), TOLD_ONLY)
-def test_a_field_that_is_only_told_has_the_limits_of_its_form(row: Record, field: Record) -> None:
+def test_a_field_only_of_responses_has_the_limits_of_its_form(row: Record, field: Record) -> None:
     found = taken(row["response"], field, having(row["section"]))
 
     assert wrong([Cell(DCON_FILE, row_id(row), field["name"], found, [False, True, True, False])]) == []
@@ -225,7 +225,7 @@ BYTES = {"result", "line_result", "protocol_result", "major", "minor", "build"}
 
 
 @pytest.mark.parametrize("sub_function", SETTINGS)
-def test_a_byte_of_a_response_has_the_limits_that_a_module_can_tell(sub_function: str) -> None:
+def test_a_byte_of_a_response_has_the_limits_of_what_a_module_sends(sub_function: str) -> None:
     row = SETTINGS[sub_function]
     cells = []
     for field in row["response_fields"]:
