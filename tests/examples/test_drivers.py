@@ -221,7 +221,7 @@ def test_a_late_response_is_not_the_answer_to_the_next_request(ask: Ask) -> None
 
 
 def late_once(here: Running) -> None:
-    """Let the line be without faults as soon as it has been late."""
+    """Switch the faults off after the first late response."""
 
     def observe(observed: Any) -> None:
         here.simulator.faults = Faults()

@@ -40,7 +40,7 @@ def instrument(opened: serial.Serial, address: int) -> Any:
 
 
 def settings(asked: Any, *payload: int) -> bytes:
-    """Ask for function 46h; the answer is over when nothing follows, as minimalmodbus does not know its length."""
+    """Send function 46h; silence ends the response, because minimalmodbus does not know its length."""
     asked.serial.timeout = 0.1
     answer: bytes = asked._perform_command(MODULE_SETTINGS, bytes(payload))  # noqa: SLF001 - it offers no other way
     asked.serial.timeout = 1

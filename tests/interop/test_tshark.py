@@ -24,7 +24,7 @@ UNNAMED = (0x05, 0x06, MODULE_SETTINGS)
 
 @pytest.fixture
 def dissected(tmp_path: Path) -> Dissect:
-    """Ask tshark about frames; skipped where it is not installed."""
+    """Dissect frames with tshark; skipped if it is not installed."""
     tshark = program("tshark")
 
     def ask(frames: list[bytes]) -> list[Dissected]:

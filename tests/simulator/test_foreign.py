@@ -22,7 +22,7 @@ ASKED = modbus.encode(modbus.ReadInputRegisters(1, 0, 8))
 def observed(
     modules: list[Simulated], *pieces: bytes, pause: float = 0.0, faults: Faults | None = None
 ) -> list[Observed]:
-    """What is told of what a host sends."""
+    """The events of the bytes that a host sends."""
     told: list[Observed] = []
 
     async def converse() -> None:

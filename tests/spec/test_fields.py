@@ -184,7 +184,7 @@ def offset_unit() -> str:
 
 
 def temperature_unit() -> str:
-    """What is told of a cold junction of 25 degrees Celsius."""
+    """The response for a cold junction of 25 degrees Celsius."""
     module = power_on(factory(Model.I_7018), now=0.0)
     _, answer = step(module, b"$013\r", Signals(cold_junction=25.0), 0.0)
     return str(Unit.CELSIUS) if answer == b">+0025.0\r" else "?"
