@@ -194,7 +194,7 @@ def test_a_flag_is_true_or_false() -> None:
     ],
     ids=lambda value: repr(value)[:20],
 )
-def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes, fault: Fault, offset: int) -> None:
+def test_an_invalid_command_frame_raises_the_fault_and_its_place(frame: bytes, fault: Fault, offset: int) -> None:
     profile = Profile(Model.M_7018R)
 
     with pytest.raises(DecodeError) as caught:
@@ -203,7 +203,7 @@ def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes
     assert (fault, offset, frame) == (caught.value.fault, caught.value.offset, caught.value.wire)
 
 
-def test_a_bad_checksum_is_told_with_the_right_one() -> None:
+def test_the_error_for_a_wrong_checksum_has_the_right_one() -> None:
     with pytest.raises(DecodeError, match=r"checksum at byte 4 of .*allowed: B7") as caught:
         dcon.decode_command(b"$012B6\r", evolve(I_7017, checksum=True))
 
@@ -283,7 +283,7 @@ def test_a_status_byte_is_kept_and_read() -> None:
     ) == (False, False)
 
 
-def test_an_offset_is_told_in_degrees() -> None:
+def test_an_offset_is_available_in_degrees() -> None:
     assert dcon.CjcOffset(0x01, -16).celsius == -0.16
 
 

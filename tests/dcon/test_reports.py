@@ -60,7 +60,7 @@ def test_the_fields_of_old_firmware_are_written_as_they_are_read() -> None:
         assert dcon.field(values[1], 7, old) == "-0000"
 
 
-def test_the_field_of_one_channel_is_what_its_reading_tells() -> None:
+def test_the_field_of_one_channel_is_the_inverse_of_its_reading() -> None:
     assert dcon.field(Reading(1.5, Unit.VOLT), 7, I_7017) == "+01.500"
     for channel in (8, -1):
         with pytest.raises(EncodeError, match="channel cannot be"):
@@ -127,7 +127,7 @@ def test_readings_beyond_the_range_are_those_of_the_module() -> None:
     assert [reading.value for reading in told] == [11.0, -11.0, 10.001, 0.0, None, None, None, -0.001]
 
 
-def test_a_lenient_caller_is_told_what_was_sent() -> None:
+def test_a_lenient_caller_gets_the_value_that_was_sent() -> None:
     report = dcon.AnalogInputs(("+0762.2",) + ("+05.000",) * 7)
 
     assert [reading.value for reading in dcon.readings(report, I_7017, lenient=True)] == [762.2] + [5.0] * 7
@@ -136,7 +136,7 @@ def test_a_lenient_caller_is_told_what_was_sent() -> None:
         dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017)
 
 
-def test_a_lenient_caller_is_told_no_text_of_other_firmware() -> None:
+def test_a_lenient_caller_gets_no_text_of_other_firmware() -> None:
     with pytest.raises(DecodeError, match="number in the value of channel 7"):
         dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+9999",)), I_7017, lenient=True)
 

@@ -271,7 +271,7 @@ def test_a_message_is_shown_with_its_addresses_in_hex() -> None:
         ("0146260101", Fault.LENGTH, 3, "address and PDU of 3 bytes and more"),
     ],
 )
-def test_a_frame_that_is_no_request_is_told_what_is_wrong_and_where(
+def test_an_invalid_request_frame_raises_the_fault_and_its_place(
     body: str, fault: Fault, offset: int, said: str
 ) -> None:
     with pytest.raises(DecodeError, match=said) as caught:
@@ -320,7 +320,7 @@ def test_a_frame_that_is_no_request_is_told_what_is_wrong_and_where(
     ],
     ids=lambda value: type(value).__name__ if isinstance(value, modbus.Message) else "",
 )
-def test_a_frame_that_does_not_answer_the_request_is_told_what_is_wrong_and_where(
+def test_a_frame_that_does_not_answer_the_request_raises_the_fault_and_its_place(
     request_: Any, body: str, fault: Fault, offset: int, said: str
 ) -> None:
     with pytest.raises(DecodeError, match=said) as caught:
@@ -391,7 +391,7 @@ def test_any_request_can_be_answered_with_any_exception(request_: Any, code: int
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 2000])
-def test_as_many_bits_are_told_as_were_asked_for(count: int) -> None:
+def test_a_response_has_as_many_bits_as_requested(count: int) -> None:
     values = tuple(at % 3 == 0 for at in range(count))
     answer = modbus.encode(modbus.Coils(0x01, values))
 

@@ -306,7 +306,7 @@ def test_a_value_is_written_in_the_unit_of_its_row(
     ],
     ids=str,
 )  # fmt: skip
-def test_items_are_told_in_the_unit_of_their_row(
+def test_items_are_decoded_in_the_unit_of_their_row(
     registers: RegisterMap, key: str | int, items: Any, value: Any
 ) -> None:
     told = registers.decode(key, items)
@@ -435,9 +435,7 @@ def test_a_line_that_the_firmware_does_not_have_is_not_written() -> None:
     ],
     ids=str,
 )
-def test_items_that_are_no_value_of_a_row_are_told_so(
-    registers: RegisterMap, key: str | int, items: Any, fault: Fault
-) -> None:
+def test_invalid_items_of_a_row_are_refused(registers: RegisterMap, key: str | int, items: Any, fault: Fault) -> None:
     with pytest.raises(DecodeError) as caught:
         registers.decode(key, items)
 
@@ -465,7 +463,7 @@ def test_an_error_says_what_could_be_there(registers: RegisterMap, key: str | in
 # --- channels ---------------------------------------------------------------------------------------------------------
 
 
-def test_some_channels_of_a_row_are_read_written_and_told() -> None:
+def test_some_channels_of_a_row_are_read_written_and_decoded() -> None:
     mixed = RegisterMap(evolve(M_7019R.profile, type_codes=(TypeCode.V_10,) * 6 + (TypeCode.K,) * 2))
 
     assert modbus.ReadInputRegisters(1, 5, 2) == mixed.read(0x01, "analog_input", channels=range(5, 7))
@@ -647,7 +645,7 @@ def test_a_plan_needs_a_response_for_each_request() -> None:
         plan.decode([modbus.Coils(0x01, (True,))])
 
 
-def test_a_response_with_too_few_items_is_told_so() -> None:
+def test_a_response_with_too_few_items_is_refused() -> None:
     plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
 
     with pytest.raises(DecodeError, match=r"count in responses .*; allowed: 2 items, not 1"):
@@ -666,7 +664,7 @@ def test_a_response_with_too_few_items_is_told_so() -> None:
     ],
     ids=str,
 )
-def test_a_response_that_does_not_answer_its_request_is_told_so(response: Any, fault: Fault, allowed: str) -> None:
+def test_a_response_that_does_not_answer_its_request_is_refused(response: Any, fault: Fault, allowed: str) -> None:
     plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
 
     with pytest.raises(DecodeError) as caught:
@@ -712,7 +710,7 @@ def test_what_can_only_be_written_cannot_be_planned() -> None:
         M_7019R.plan(0x01, ["load_factory_calibration"])
 
 
-def test_a_number_is_of_the_area_that_it_tells() -> None:
+def test_a_number_selects_the_area_of_its_first_digit() -> None:
     registers = modbus.RegisterMap(Profile(Model.M_7017))
 
     with pytest.raises(EncodeError, match="has no register '40489'"):
