@@ -1,8 +1,8 @@
-"""What Hypothesis calls when it is imported, so that `st.from_type` knows every public class of `i7000`.
+"""The entry point that Hypothesis calls when it is imported, so that `st.from_type` has every public class of `i7000`.
 
-It stands beside the package, because an import of anything in the package imports attrs and the vocabulary, and this is
-imported by everyone who has both distributions. So it imports neither `i7000` nor its strategies: Hypothesis lets a
-package resolve its own classes, as it does for NumPy, and asks when it meets the first.
+This module is outside the package because everyone who has both distributions imports it, and importing anything in the
+package also imports attrs. It imports neither `i7000` nor its strategies: Hypothesis calls `resolve` when it needs a
+strategy for the first class of the package, as it does for NumPy.
 
 Laws: `register` never raises, whatever the version of Hypothesis.
 """
@@ -16,7 +16,7 @@ NEEDED = (6, 120)
 
 
 def register() -> None:
-    """Have Hypothesis ask `resolve` for strategies; warn where that is impossible."""
+    """Register `resolve` with Hypothesis; warn if that is impossible."""
     try:
         reason = _register()
     except Exception as error:  # noqa: BLE001 - it is not for us to make an import of Hypothesis fail
@@ -27,7 +27,7 @@ def register() -> None:
 
 
 def _register() -> str:
-    """Return why it is impossible, or nothing."""
+    """Register `resolve`; return the reason if that is impossible, else an empty string."""
     from hypothesis.version import __version__, __version_info__  # noqa: PLC0415 - it is being imported
 
     if __version_info__ < NEEDED:

@@ -1,21 +1,21 @@
-"""Starting the program ``i7000``: Ctrl-C and a closed pipe end it at any moment without a traceback.
+"""The entry point of the program ``i7000``: Ctrl-C and a closed pipe end it at any moment without a traceback.
 
-It stands outside the package because importing the package takes a good part of the time of a short command, and
-nothing inside could take care of Ctrl-C meanwhile. For the same reason it imports as little as it can.
+It is outside the package because importing the package takes a large part of the time of a short command, and code
+inside the package could not handle Ctrl-C during the import. For the same reason it imports very little.
 """
 
 import os
 import sys
 
 INTERRUPTED = 130
-"""Exit code after Ctrl-C: 128 and the number of the signal, as a shell has it."""
+"""The exit code after Ctrl-C: 128 and the number of the signal, as in a shell."""
 FAILED = 2
-"""Exit code if the output cannot be written, as on a full disk; and of wrong usage."""
+"""The exit code if the output cannot be written, for example on a full disk, and for wrong usage."""
 CLOSED = 141
-"""Exit code if nobody reads the output to its end, as after ``| head -1``: the same of a broken pipe."""
+"""The exit code if the reader closes the output early, as in ``| head -1``: that of a broken pipe."""
 
 _ROOM = 1 << 16
-"""Bytes of output that are written at once: each time takes as long as many lines."""
+"""The output is written in pieces of this many bytes: each write takes as long as many lines."""
 
 try:
     import signal
@@ -44,7 +44,7 @@ def main() -> int:
 
 
 def roomy(output: "TextIO | None") -> "TextIO | None":
-    """Return an output that keeps more until it is written; that of a terminal, which shows each line, stays."""
+    """Return a stream with a larger buffer; that of a terminal, which shows each line, is returned unchanged."""
     try:
         if output is None or output.isatty():
             return output
@@ -57,7 +57,7 @@ def roomy(output: "TextIO | None") -> "TextIO | None":
 def program(run: "Callable[[], int]") -> int:
     """Run a program, and return the exit code of the process.
 
-    Special: Ctrl-C ends the process where it is, unless `run` has it do something else. After `run` it has no effect.
+    Special: Ctrl-C ends the process immediately, unless `run` installs another handler. After `run` it has no effect.
     """
     end_at_ctrl_c()
     code = run()
@@ -78,13 +78,13 @@ def program(run: "Callable[[], int]") -> int:
 
 
 def end_at_ctrl_c() -> None:
-    """End the process where it is at Ctrl-C, unless it is ignored, as by a job in the background."""
+    """Make Ctrl-C end the process immediately, unless it is ignored, as in a background job."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _end)
 
 
 def _end(*_: object) -> None:
-    """End the process; an exception could come up where Python can only print it, and go on."""
+    """End the process; an exception could be raised where Python only prints it and continues."""
     try:
         sys.stdout.flush()
     finally:  # whether or not there is an output that can be written now

@@ -36,6 +36,14 @@ def test_the_example_runs_and_prints_what_it_says(capsys: pytest.CaptureFixture[
     assert printed[0] == "0 25.1 degC ok"
 
 
+def test_the_listener_prints_what_its_comments_say(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(2)
+
+    reading, facts = capsys.readouterr().out.splitlines()
+    assert f"# {reading}\n" in README
+    assert f"\n# {facts}\n" in README
+
+
 @pytest.mark.parametrize(
     "name", [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md"]
 )
@@ -64,17 +72,32 @@ def test_the_first_command_understands_all(run: Run, monkeypatch: pytest.MonkeyP
     assert run(*arguments.split()).code == 0
 
 
+def test_the_first_command_prints_the_lines_that_are_shown(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    (arguments,) = re.findall(r"bin/i7000 (decode .*)", README)
+    (shown,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
+    monkeypatch.chdir(ROOT)
+
+    assert shown in run(*arguments.split()).out
+
+
+@pytest.mark.parametrize("arguments", re.findall(r"^i7000 (decode .*)$", README, re.MULTILINE))
+def test_what_is_decoded_is_understood(run: Run, monkeypatch: pytest.MonkeyPatch, arguments: str) -> None:
+    monkeypatch.chdir(ROOT)
+
+    assert run(*shlex.split(arguments)).code == 0
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     list(
         zip(
-            re.findall(r"`i7000 ((?:decode|registers) --[^`]*)`", README),
+            re.findall(r"`i7000 ((?:decode|registers) --(?!schema|help)[^`]*)`", README),
             ["40489 host_watchdog_timeout 10 s", "40489 host_watchdog_timeout R/W"],
             strict=True,
         )
     ),
 )
-def test_the_examples_at_the_terminal_tell_what_they_say(run: Run, arguments: str, words: str) -> None:
+def test_the_examples_at_the_terminal_print_what_the_readme_says(run: Run, arguments: str, words: str) -> None:
     result = run(*shlex.split(arguments))
 
     assert words in " ".join(result.out.split())

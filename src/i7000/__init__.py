@@ -1,6 +1,7 @@
 """The protocols of the ICP DAS I-7000 / M-7000 analog-input modules as pure functions on immutable values.
 
-The vocabulary is here; the protocols are the modules `i7000.dcon` and, for M-7000 modules, Modbus RTU.
+This package has the shared vocabulary. The protocols are `i7000.dcon` and, for M-7000 modules, `i7000.modbus` (Modbus
+RTU).
 """
 
 from i7000.errors import (

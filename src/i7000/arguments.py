@@ -1,7 +1,7 @@
-"""The arguments of public functions: one rule for all of them.
+"""Checks of the arguments of public functions: one rule for all of them.
 
-Laws: bytes, bytearray and memoryview are taken as bytes, and nothing that is returned shares memory with them. An
-argument of another type than the function works on is an `ArgumentError`; a value out of its range is none.
+Laws: bytes, bytearray and memoryview are accepted as bytes; results never share memory with them. An argument of the
+wrong type raises `ArgumentError`; a value out of range does not.
 """
 
 from collections.abc import Iterable, Mapping
@@ -46,7 +46,7 @@ def as_bytes(name: str, value: object) -> bytes:
 def as_tuple(name: str, values: Iterable[T]) -> tuple[T, ...]:
     """Return the items of an iterable argument.
 
-    Errors: `ArgumentError` for what is not iterable.
+    Errors: `ArgumentError` for an object that is not iterable.
     """
     try:
         items = iter(values)
@@ -66,7 +66,7 @@ def check_type(name: str, value: object, *kinds: Any, optional: bool = False) ->
 
 
 def check_int(name: str, value: object) -> None:
-    """Check that an argument is an int, and no truth value.
+    """Check that an argument is an int and not a bool.
 
     Errors: `ArgumentError`.
     """
@@ -87,12 +87,12 @@ def check_fields(instance: object, kinds: Mapping[str, tuple[type, ...]]) -> Non
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a finite number, of a size that a float can have, and no truth value."""
+    """Return whether a value is a finite number that fits in a float, and not a bool."""
     return isinstance(value, _NUMBERS) and not isinstance(value, bool) and abs(value) <= LARGEST_FLOAT
 
 
 def check_seconds(name: str, value: object) -> None:
-    """Check a time that is a field.
+    """Check that a field is a time in seconds.
 
     Errors: `InvalidValueError`.
     """
@@ -101,7 +101,7 @@ def check_seconds(name: str, value: object) -> None:
 
 
 def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
-    """Check a time in seconds, of a clock that was at `before` when it was last read.
+    """Check a clock reading in seconds against the previous one, `before`.
 
     Errors: `ArgumentError` for another type, `InvalidValueError` for a number that is not finite, `StateError` for a
         clock that went back.

@@ -1,6 +1,6 @@
-"""Who has a command, a request or a table of addresses (the notes of chapters 2 and 3).
+"""Which models have a command, a request or a table of addresses (the notes of chapters 2 and 3).
 
-Laws: a message class names the member that it is for, so that this is stated once, where the command is.
+Laws: each message class names its member, so availability is stated once, at the command.
 """
 
 from enum import Enum
@@ -14,7 +14,7 @@ _M_7017_SERIES = dict.fromkeys(("M_7017", "M_7017C", "M_7017R", "M_7017RC", "M_7
 
 
 class Availability(Enum):
-    """Who has something: in a word for people, and as gates.
+    """The models that have a feature: a phrase for messages, and the gates to check.
 
     Manual: 2, 3; E55, E56, E68, E69.
     """

@@ -1,6 +1,6 @@
-"""Source that is made from the statements of messages, compiled; and the constructor, which both protocols share.
+"""Compilation of source generated from message classes, and the constructor that both protocols share.
 
-Laws: what is made can be read: tracebacks and debuggers show its lines, as those of any other source.
+Laws: generated code is readable: tracebacks and debuggers show its lines like those of any other source.
 """
 
 import linecache
@@ -13,7 +13,7 @@ __all__ = ["Field", "compiled", "constructor_names", "constructor_source"]
 
 
 def compiled(source: str, name: str, names: dict[str, Any]) -> dict[str, Any]:
-    """Run the source of some functions, which can use `names`, and return these names with theirs.
+    """Execute the source of functions, which can use `names`, and return the namespace with the functions.
 
     >>> compiled("def double(it): return factor * it", "doctest", {"factor": 2})["double"](21)
     42
@@ -25,15 +25,15 @@ def compiled(source: str, name: str, names: dict[str, Any]) -> dict[str, Any]:
 
 
 class Field(Protocol):
-    """What the field of a message can be."""
+    """The values of a message field."""
 
     @property
     def allowed(self) -> str:
-        """Its values, for messages."""
+        """The allowed values, for messages."""
 
     @property
     def accepts(self) -> Callable[[Any], bool]:
-        """Whether the field can have a value."""
+        """Return whether the field can have a value."""
 
     @property
     def bounds(self) -> tuple[int, int] | None:
@@ -41,11 +41,11 @@ class Field(Protocol):
 
 
 def constructor_source(fields: Mapping[str, Field], keywords: Container[str], more: Iterable[str]) -> Iterator[str]:
-    """Yield the lines of a constructor that refuses values that no message of a class can have.
+    """Yield the lines of a constructor that raises for values that no message of a class can have.
 
-    Shape: `keywords` are the fields that are given by keyword only; `more` are lines for what fields can be together.
-    Special: a plain number within its bounds is nearly always there, so it is looked at first; `accepts` takes other
-        kinds of int too.
+    Shape: `keywords` are the keyword-only fields; `more` are lines that check combinations of fields.
+    Special: most values are plain numbers within bounds, so that is checked first; `accepts` also accepts other kinds
+        of int.
     """
     positional = [name for name in fields if name not in keywords]
     named = [name for name in fields if name in keywords]
@@ -64,7 +64,7 @@ def constructor_source(fields: Mapping[str, Field], keywords: Container[str], mo
 
 
 def constructor_names(message: Any, fields: Mapping[str, Field]) -> dict[str, Any]:  # noqa: ANN401 - a message class
-    """Return what `constructor_source` uses.
+    """Return the names that `constructor_source` uses.
 
     Errors: its `refuse` raises `EncodeError`.
     """

@@ -1,8 +1,8 @@
-"""Values in words: what people read in place of codes, masks and settings.
+"""Values in words: descriptions of codes, masks and settings for people.
 
-A part of a layout, or a row of an address map, names the function here that its values are described with.
+Each part of a layout, and each row of an address map, names the function here that describes its values.
 
-Laws: a code that the manual does not define is described as the number it is.
+Laws: an undefined code is described as its number.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ __all__ = [
 
 
 def value(it: Any) -> str:  # noqa: ANN401 - of any field
-    """Describe a value that needs no more than itself.
+    """Describe a value that needs no context.
 
     >>> value(True), value(Filter.REJECT_50_HZ), value(0.1 + 0.2), value(488)
     ('yes', 'reject_50_hz', '0.3', '488')
@@ -42,7 +42,7 @@ def value(it: Any) -> str:  # noqa: ANN401 - of any field
 
 
 def address(number: int) -> str:
-    """Describe an address so that nobody can take it for another one: in hex, and in decimal where that differs.
+    """Describe an address unambiguously: in hex, and in decimal if that differs.
 
     >>> address(0x01), address(0x0A), address(0x10)
     ('01', '0Ah (10)', '10h (16)')
@@ -82,7 +82,7 @@ def type_code(code: int) -> str:
 
 
 def line_settings(line: LineSettings | int) -> str:
-    """Describe CC, or a number that is too large for it.
+    """Describe CC, or the number of an undefined CC.
 
     >>> line_settings(LineSettings.from_byte(0x86)), line_settings(0x186)
     ('86, 9600 baud, E81', '186, not defined')
@@ -106,7 +106,7 @@ def mask(channels: int, first: int = 0) -> str:
 
 
 def module_name(name: bytes) -> str:
-    """Describe the name that a module has by Modbus: that of its series (E77).
+    """Describe a module name read by Modbus: the name of the series (E77).
 
     >>> module_name(bytes.fromhex("00701900")), module_name(bytes(4))
     ('00701900, M-7019 series', '00000000')
@@ -116,7 +116,7 @@ def module_name(name: bytes) -> str:
 
 
 def series(name: str | int) -> str:
-    """Describe the series of a module, or the number that stands in its place.
+    """Describe the series of a module, or the number of an unknown series.
 
     >>> series("7019"), series(0x12345678)
     ('M-7019 series', '12345678, not defined')
@@ -125,7 +125,7 @@ def series(name: str | int) -> str:
 
 
 def firmware(version: Firmware | int) -> str:
-    """Describe a firmware version, or the number that stands in its place.
+    """Describe a firmware version, or the number of an invalid version.
 
     >>> firmware(Firmware("B405")), firmware(0x12345678)
     ('B4.5', '12345678, not defined')

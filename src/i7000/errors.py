@@ -1,9 +1,9 @@
-"""What can be wrong: every error of the package lives here.
+"""Every error of the package.
 
-Laws: given arguments of the right types, an encoder raises nothing but `EncodeError`, a decoder nothing but
-`DecodeError`. A function called with another type raises `ArgumentError`. A constructor raises `InvalidValueError` for
-a value that the field cannot have, whatever its type; `EncodeError` is the kind of it for messages and for what modules
-can be. What a module may legally say is never an error: a refusal (``?AA``) is a value.
+Laws: with arguments of the right types, encoders raise only `EncodeError` and decoders raise only `DecodeError`.
+Arguments of the wrong type raise `ArgumentError`. Constructors raise `InvalidValueError` for an invalid value of any
+type; for messages and module settings they raise its subclass `EncodeError`. A valid response is never an error: a
+refusal (``?AA``) is a value.
 """
 
 from enum import Enum
@@ -24,14 +24,14 @@ __all__ = [
 
 
 class Fault(Enum):
-    """Why bytes are not a frame, or a frame is not a message."""
+    """The reason why bytes are not a frame, or a frame is not a message."""
 
     LENGTH = "length"
-    """Too short or too long for what it is; or more than 256 bytes without an end."""
+    """The wrong number of bytes, or more than 256 bytes without an end."""
     TERMINATOR = "terminator"
     """The carriage return is missing, or comes early."""
     CHARACTER = "character"
-    """A byte that may not stand where it stands: not ASCII, a lower-case digit, another letter than the syntax has."""
+    """A byte that is not allowed at its place: not ASCII, a lower-case digit, or a letter that is not in the syntax."""
     LEADING = "leading"
     """Not the leading character of a message of this direction or kind."""
     CHECKSUM = "checksum"
@@ -41,29 +41,29 @@ class Fault(Enum):
     UNSUPPORTED = "unsupported"
     """The command exists, but not on this model or firmware."""
     ADDRESS = "address"
-    """The answer of another module than the one asked."""
+    """The response of a module other than the addressed one."""
     NUMBER = "number"
     """A data field that is not a number of its format."""
     VALUE = "value"
-    """A digit or byte outside the few that are defined for its place."""
+    """An undefined value of a digit or byte."""
     CRC = "crc"
     """The CRC of a Modbus RTU frame is wrong."""
     FUNCTION = "function"
-    """A function code that these modules do not have, or not the one that was asked for."""
+    """A function code that these modules do not have, or that does not match the request."""
     SUB_FUNCTION = "sub_function"
-    """The same of the sub-function of function 46h."""
+    """A sub-function of function 46h that these modules do not have, or that does not match the request."""
     RANGE = "range"
-    """More items than one frame may ask for or carry, none at all, or items beyond address 65535."""
+    """More items than one frame can request or carry, zero items, or items beyond address 65535."""
     COUNT = "count"
     """The byte count, or the number of items, does not agree with the rest of the frame or with the request."""
     ECHO = "echo"
-    """A response that does not repeat what its request said."""
+    """A response that does not repeat its request."""
     RESERVED = "reserved"
     """A reserved byte or bit that is not zero."""
 
 
 class I7000Error(Exception):
-    """The base of every error that this package raises on purpose; it can be told whatever its facts are."""
+    """The base class of all errors that this package raises deliberately; their text can always be printed."""
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(map(shown, self.args))})"
@@ -72,8 +72,8 @@ class I7000Error(Exception):
 class InvalidValueError(I7000Error, ValueError):
     """A value that a field or an argument cannot have, such as a negative timeout.
 
-    Shape: `field`, `value`, `allowed` (what it could be, or who can), `section` of the manual, empty where the manual
-        is not the reason; `reason` where more is to say than that the field cannot have the value.
+    Shape: `field`, `value`, `allowed` (the allowed values, or the models that have it), `section` of the manual, empty
+        if the manual is not the reason; `reason`, a text in place of "field cannot be value".
     """
 
     def __init__(self, field: str, value: object, allowed: str, section: str, reason: str = "") -> None:
@@ -95,10 +95,9 @@ class EncodeError(InvalidValueError):
 
 
 class DecodeError(I7000Error, ValueError):
-    """Bytes that are not what they should be; `wire` holds them all, nothing is lost.
+    """Bytes that cannot be decoded; `wire` has all of them.
 
-    Shape: `fault`, `wire`, `offset` (of the byte at fault, or of the field that is as a whole), `field` (its name, or
-        empty), `allowed`, `section`.
+    Shape: `fault`, `wire`, `offset` (of the invalid byte or field), `field` (its name, or empty), `allowed`, `section`.
     """
 
     def __init__(  # noqa: PLR0913 - the facts of one fault
@@ -128,10 +127,9 @@ def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> Decode
 
 
 class ArgumentError(I7000Error, TypeError):
-    """An argument of a type that the function does not work on.
+    """An argument of the wrong type.
 
-    Shape: `argument` (its name), `value` (what was given), `allowed` (the types that it can have); `reason` as in
-        `EncodeError`.
+    Shape: `argument` (its name), `value`, `allowed` (the allowed types); `reason` as in `EncodeError`.
     """
 
     def __init__(self, argument: str, value: object, allowed: str, reason: str = "") -> None:
@@ -147,22 +145,22 @@ class ArgumentError(I7000Error, TypeError):
 
 
 class StateError(I7000Error):
-    """A call at the wrong time: a request is still open, or the clock went back; the text says what to do instead."""
+    """A call at the wrong time: a request is still open, or the clock went back; the text says what to do next."""
 
 
 def _named(value: object) -> object:
-    """A member of an enumeration by its name, alone or in a tuple."""
+    """Return the name of an enumeration member, alone or in a tuple; other values unchanged."""
     if type(value) is tuple:
         return tuple(map(_named, value))
     return value.name if isinstance(value, Enum) else value
 
 
 _SHOWN = 60
-"""Characters of a value that a message shows; the attribute holds all of it."""
+"""The maximum length of a value in a message; the attribute has the whole value."""
 
 
 def shown(value: object) -> str:
-    """Write a value for a message: whole if that is short, and never with an error of its own."""
+    """Return a value as text for a message, shortened if necessary; never raises."""
     try:
         text = repr(_named(value))
     except ValueError:  # sys.set_int_max_str_digits
@@ -174,7 +172,7 @@ def shown(value: object) -> str:
 
 @frozen
 class Noise:
-    """Bytes of a stream that belong to no frame, and what was wrong with the first of them."""
+    """Bytes of a stream that belong to no frame, and the fault of the first of them."""
 
     wire: bytes
     fault: Fault

@@ -1,7 +1,7 @@
-"""Channel fields as text: their forms, and the lines of a report that are made of them (manual 1.11).
+"""Channel fields as text: their forms, and the data of a report that consists of them (manual 1.11).
 
-Laws: what a field means is known to `i7000.readings`; here are only its characters, and the texts that stand in the
-place of a number.
+Laws: this module knows only the characters of a field, and the texts that replace a number; `i7000.readings` decodes
+them.
 """
 
 import re
@@ -27,7 +27,7 @@ __all__ = [
 
 
 class Status(Enum):
-    """What a reading is worth."""
+    """The status of a reading."""
 
     OK = "ok"
     OVER_RANGE = "over_range"
@@ -43,7 +43,9 @@ TEXT_SENTINELS = {
     "-999.99": Status.UNDER_RANGE,
 }
 LEGACY_SENTINELS = {"+9999": Status.OVER_RANGE, "-0000": Status.UNDER_RANGE}
-"""Of old firmware (`Profile.legacy_sentinels`), in every data format. ``-0000.5`` is not one of them (E49)."""
+"""The sentinels of old firmware (`Profile.legacy_sentinels`), in every data format. ``-0000.5`` is not one of them
+(E49).
+"""
 
 LEGACY_WIDTH = 5
 FIELD_WIDTHS = {DataFormat.ENGINEERING: 7, DataFormat.PERCENT: 7, DataFormat.HEX: 4}
@@ -61,7 +63,7 @@ _SHAPE = {
     DataFormat.PERCENT: _TEXT_SHAPE,
     DataFormat.HEX: bytes.maketrans(b"123456789ABCDEF", b"000000000000000"),
 }
-"""Digits as 0 and signs as +: what has the same shape is written in the same form."""
+"""Maps digits to 0 and signs to +: texts of one shape have one form."""
 _SHAPES = {
     DataFormat.ENGINEERING: frozenset({b"+0.0000", b"+00.000", b"+000.00", b"+0000.0"}),
     DataFormat.PERCENT: frozenset({b"+000.00"}),
@@ -86,11 +88,11 @@ _UNIFORM = {
     )
     for count in (1, 8, 10, 16, 20)
 }
-"""How lines of which all fields are numbers of one form are known at one glance, and split: by count and format."""
+"""The lines whose fields are all numbers of one form, by count and format: they are recognized and split at once."""
 
 
 def is_field(field: str, data_format: DataFormat, *, legacy: bool = False) -> bool:
-    """Whether `field` is one whole channel field of `data_format`: a number, a sentinel or blanks."""
+    """Return whether `field` is one complete channel field of `data_format`: a number, a sentinel or blanks."""
     if field == " " * FIELD_WIDTHS[data_format] or (legacy and field in LEGACY_SENTINELS):
         return True
     if field.encode("ascii", "replace").translate(_SHAPE[data_format]) in _SHAPES[data_format]:
@@ -130,7 +132,7 @@ def split_fields(text: str, count: int, data_format: DataFormat, *, legacy: bool
 _LEGACY_FIELD = dict.fromkeys(DataFormat, f"[-+]?[^-+ ]+|[-+]| {{1,{TEXT_WIDTH}}}") | {
     DataFormat.HEX: "[-+].{0,4}|.{1,4}",
 }
-"""From a sign to the next one or to blanks; in hex, five characters behind a sign and four elsewhere."""
+"""A field of old firmware: from a sign to the next one or to blanks; in hex, five characters with a sign, else four."""
 
 
 def not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
@@ -141,7 +143,7 @@ def not_a_field(text: str, at: int, data_format: DataFormat) -> DecodeError:
 
 
 def are_fields(fields: tuple[str, ...]) -> bool:
-    """Whether all of `fields` are whole channel fields of some one data format, of whatever firmware."""
+    """Return whether all of `fields` are complete channel fields of the same data format, of any firmware."""
     known = _UNIFORM.get(len(fields))
     if known:  # nearly always: all are numbers, which is seen at one glance
         text = "".join(fields)

@@ -1,10 +1,10 @@
-"""`frozen` makes what `attrs.frozen` makes of a class, but not before the class is used.
+"""The decorator `frozen`: `attrs.frozen`, but applied at the first use of the class.
 
-To make a hundred classes takes attrs longer than the rest of an import, so an import gives a class only its slots.
-The first call of its constructor, or the first question of attrs about its fields, has attrs make the rest.
+Processing a hundred classes with attrs takes longer than the rest of an import, so an import only adds slots. The first
+call of the constructor, or the first use of `attrs` functions on the class, makes the rest.
 
-Laws: a class that was used is what `attrs.frozen` makes. Several threads can be the first to use it: each has attrs
-work on a copy of its own, and all make the same. `__init_subclass__` is called for every copy: it must be repeatable.
+Laws: after its first use, a class is the same as one from `attrs.frozen`. Several threads can be the first: each
+processes its own copy, with the same result. `__init_subclass__` is called for every copy, so it must be repeatable.
 """
 
 from collections.abc import Callable
@@ -15,11 +15,11 @@ import attrs
 __all__ = ["frozen"]
 
 _AWAITED = ("__init__", "__setattr__", "__delattr__", "__setstate__", "__attrs_attrs__", "__match_args__")
-"""What can be asked of a class that was never constructed; the rest is asked of instances."""
+"""The attributes of a class that can be used before the first instance exists."""
 
 
 class _Awaited:
-    """An attribute of a class that attrs has not made yet."""
+    """An attribute of a class that attrs has not processed yet."""
 
     def __init__(self, plain: dict[str, Any], options: dict[str, Any]) -> None:
         self._plain = plain

@@ -1,7 +1,7 @@
-"""What every message of both protocols is: a frozen value whose class states its wire form once.
+"""The base of all messages of both protocols: frozen values whose class states its wire form once.
 
-Laws: a message that can be constructed has a wire form, so a base class cannot be; whether a certain model takes it is
-what `check` knows.
+Laws: every message that can be constructed has a wire form, so base classes cannot be constructed. `check` raises if a
+model does not accept a message.
 """
 
 from collections.abc import Callable
@@ -21,7 +21,7 @@ _IN_HEX = ("address", "new_address", "mask")
 
 
 class CompiledOnce:
-    """The layout of a message class, compiled when it is first asked for."""
+    """The layout of a message class, compiled at its first use."""
 
     def __init__(self, compile_layout: Callable[[Any], Any]) -> None:
         self._compile = compile_layout
@@ -32,7 +32,7 @@ class CompiledOnce:
 
 
 class ConstructedOnce:
-    """The constructor of a message class, which its layout has."""
+    """The constructor of a message class, taken from its layout."""
 
     def __get__(self, message: Any, kind: Any) -> Any:  # noqa: ANN401 - a message or None, its class, the constructor
         if not hasattr(kind, "section"):
@@ -61,8 +61,8 @@ else:
 class Message:
     """A message of one of the protocols.
 
-    Shape: `section` of the manual; `title`, a few words for people; `availability`, who has it; `layout`, the compiled
-        statement of the wire form.
+    Shape: `section` of the manual; `title`, a short name for people; `availability`, the models that have it; `layout`,
+        the compiled wire form.
     """
 
     __slots__ = ()
@@ -72,7 +72,7 @@ class Message:
     availability: ClassVar[Availability] = Availability.ALL
     layout: ClassVar[Any]
     _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
-    """What to construct where a class is only the base of others, which has no section."""
+    """The classes to construct in place of a base class, which has no section."""
 
     if not TYPE_CHECKING:  # attrs says which arguments it has
         __init__ = ConstructedOnce()
@@ -87,7 +87,7 @@ class Message:
         return hash((type(self), *self._values().values()))
 
     def __repr__(self) -> str:
-        """The constructor call, with addresses in hex as the manual writes them."""
+        """Return the constructor call, with addresses in hex as the manual writes them."""
         values = (
             f"{name}=0x{value:02X}" if name in _IN_HEX else f"{name}={value!r}"
             for name, value in self._values().items()
@@ -103,7 +103,7 @@ class Message:
         return {name: parts[name].describe(value) for name, value in self._values().items()}
 
     def check(self, profile: Profile) -> None:
-        """Refuse what the module of `profile` does not take or send.
+        """Raise `EncodeError` for a message that the module of `profile` does not accept or send.
 
         Errors: `EncodeError`.
         """
@@ -112,7 +112,7 @@ class Message:
 def answer_of(kind: Any) -> Any:  # noqa: ANN401 - classes
     """Return the class in the brackets of a message class: ``class ReadConfiguration(Command[Configuration])``.
 
-    Special: a response of the same section as its command is for the same models.
+    Special: a response has the availability of its command if both have the same section.
     """
     response = get_args(kind.__orig_bases__[0])[0]
     if getattr(response, "section", None) == getattr(kind, "section", ""):

@@ -1,7 +1,7 @@
-"""The 28 modules: what each one has, and from which firmware on.
+"""The 28 models: the features of each one, and the firmware that introduced them.
 
-Laws: the name of a model says most of what it is, so features are rules on names, as the manual's notes are; the rows
-stand in ``spec/tables/models.json``. A firmware that is not given (None) is the newest: nothing is held back for it.
+Laws: most features follow from the name of a model, so they are rules on names, like the notes of the manual; the rows
+are in ``spec/tables/models.json``. Firmware None means the newest, which has every feature of the model.
 Manual: 1, 1.3, 1.9, 1.11, the notes of chapter 2.
 """
 
@@ -27,7 +27,7 @@ _FIRMWARE = re.compile(r"([A-Z])([0-9])(?:\.([0-9]{1,2})|([0-9]{2}))")
 @total_ordering
 @frozen(eq=False, repr=False)
 class Firmware:
-    """A firmware version, as ``$AAF`` tells it; versions are ordered.
+    """A firmware version, as in the response to ``$AAF``; versions are ordered.
 
     Shape: a letter, a digit and a minor number, ``B3.9``; the address maps write ``B305`` for B3.5 (E67).
     Errors: `EncodeError`.
@@ -57,7 +57,7 @@ class Firmware:
         return hash(self._key)
 
     def __str__(self) -> str:
-        """The version with its point, however it was written."""
+        """Return the version with its point, however it was written."""
         letter, major, minor = self._key
         return f"{letter}{major}.{minor}"
 
@@ -66,7 +66,7 @@ class Firmware:
 
     @classmethod
     def from_bytes(cls, version: bytes) -> "Firmware | None":
-        """The version that three bytes are: major, minor and build (E75, assumption); None for those of no version.
+        """Return the version in three bytes: major, minor and build (E75, assumption); None for invalid bytes.
 
         Manual: 3.3.7; E67, E75.
 
@@ -82,13 +82,13 @@ class Firmware:
         return cls(f"{chr(letter - 10 + ord('A'))}{major}.{minor}")
 
     def __bytes__(self) -> bytes:
-        """Major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption)."""
+        """Return major, minor and build: B4.5 is 0B, 04, 05 (E75, assumption)."""
         letter, major, minor = self._key
         return bytes((int(letter, 36), major, minor))
 
 
 Gates = Mapping["Model", Firmware | None]
-"""The models that have a thing, and the firmware from which on (None: always)."""
+"""The models that have a feature, and the firmware that introduced it (None: always)."""
 
 
 class Model(Enum):
@@ -127,7 +127,7 @@ class Model(Enum):
 
     @classmethod
     def find(cls, name: str) -> "Model":
-        """The model of that name, in any case; I-7019 and M-7019 are the R models, the only ones there are (E36).
+        """Return the model of that name, in any case; I-7019 and M-7019 mean the R models (E36).
 
         Errors: `EncodeError` that names the nearest ones.
         """
@@ -147,7 +147,7 @@ class Model(Enum):
 
     @classmethod
     def series_of(cls, name: bytes) -> str | None:
-        """The series that a name by Modbus is of, ``7019``; None for any other bytes.
+        """Return the series of a name read by Modbus, such as ``7019``; None for any other bytes.
 
         Manual: 3.3.1; E75, E77.
 
@@ -158,41 +158,41 @@ class Model(Enum):
 
     @property
     def modbus_name(self) -> bytes:
-        """The name by Modbus, which has the series only: 00 70 19 00 (3.3.1; E75, E77)."""
+        """The name by Modbus, which contains only the series: 00 70 19 00 (3.3.1; E75, E77)."""
         return bytes.fromhex(f"00{self.series}00")
 
     @property
     def suffix(self) -> str:
-        """What the name has after the series: ``R-A5``, ``Z``, or nothing."""
+        """The part of the name after the series: ``R-A5``, ``Z``, or nothing."""
         return self.value[6:]
 
     @property
     def factory_name(self) -> str:
-        """The name that ``$AAM`` answers until another is set, which the I- and the M- model share (2.24)."""
+        """The response to ``$AAM`` until another name is set; the same for the I- and the M- model (2.24)."""
         return (self.series + self.suffix.replace("-", "")).upper()[:6]
 
     @property
     def protocols(self) -> frozenset[Protocol]:
-        """The protocols it speaks: Modbus RTU is what the M-7000 series adds."""
+        """The protocols of the model: the M-7000 series adds Modbus RTU."""
         return frozenset(Protocol) if self.value.startswith("M") else frozenset({Protocol.DCON})
 
     @property
     def channels(self) -> int:
-        """Differential input channels (1.3)."""
+        """The number of differential input channels (1.3)."""
         if self.suffix.endswith("-16"):
             return 16
         return 10 if self.suffix == "Z" else 8
 
     @property
     def single_ended_channels(self) -> int | None:
-        """Channels when all inputs are single-ended: by command on the 7017Z, by jumper on the M-7017mC-16 (1.3)."""
+        """The channels with single-ended inputs: by command on the 7017Z, by jumper on the M-7017mC-16 (1.3)."""
         if self.series == "7017" and self.suffix == "Z":
             return 20
         return 16 if self is Model.M_7017mC_16 else None
 
     @property
     def current_only(self) -> bool:
-        """Whether it measures currents only."""
+        """Whether the model measures only currents."""
         return self.series == "7017" and self.suffix in ("C", "FC", "RC", "mC-16")
 
     @property
@@ -208,7 +208,7 @@ class Model(Enum):
 
     @cached_property
     def type_codes(self) -> Mapping[TypeCode, Firmware | None]:
-        """The types it supports, and the firmware from which on (1.11; E35 to E42)."""
+        """The supported types, and the firmware that introduced them (1.11; E35 to E42)."""
         return MappingProxyType(self._type_codes())
 
     def _type_codes(self) -> dict[TypeCode, Firmware | None]:  # noqa: PLR0911 - a table
@@ -237,7 +237,7 @@ class Model(Enum):
 
     @property
     def thermocouples(self) -> frozenset[str]:
-        """Letters of the thermocouples it measures."""
+        """The letters of the supported thermocouples."""
         return frozenset(code.thermocouple for code in self.type_codes if code.thermocouple)
 
     @property
@@ -247,49 +247,49 @@ class Model(Enum):
 
     @property
     def type_by_configuration(self) -> bool:
-        """Whether TT of ``%AANNTTCCFF`` sets the type; elsewhere it has no use (2.1; E81)."""
+        """Whether TT of ``%AANNTTCCFF`` sets the type; other models ignore it (2.1; E81)."""
         return self not in TT_UNUSED
 
     @property
     def fast_mode(self) -> bool:
-        """Whether it has a fast mode, of 12 bits (1.11 FF; E43)."""
+        """Whether the model has a fast mode, of 12 bits (1.11 FF; E43)."""
         return self.series == "7017" and (self.suffix in ("F", "FC", "R", "RC", "R-A5", "Z", "mC-16"))
 
     @property
     def fast_mode_default(self) -> bool:
-        """Whether it leaves the factory in fast mode (1.9; E95)."""
+        """Whether fast mode is the factory default (1.9; E95)."""
         return self in (Model.I_7017F, Model.I_7017FC)
 
     @property
     def sampling_rate(self) -> int:
-        """Samples a second over all channels, in normal mode (1.3; E72)."""
+        """The samples per second over all channels, in normal mode (1.3; E72)."""
         return 8 if self.series == "7019" and self.suffix == "R" else 10
 
     @property
     def fast_sampling_rate(self) -> int | None:
-        """Samples a second in fast mode (1.3; E96)."""
+        """The samples per second in fast mode (1.3; E96)."""
         if not self.fast_mode:
             return None
         return {"R-A5": 50, "mC-16": 200}.get(self.suffix, 60)
 
     @property
     def cjc(self) -> bool:
-        """Whether it measures and compensates the temperature of the cold junction."""
+        """Whether the model measures and compensates the temperature of the cold junction."""
         return self.series != "7017"
 
     @property
     def open_wire_detection(self) -> bool:
-        """Whether it notices an open thermocouple wire (1.3; E69)."""
+        """Whether the model detects an open thermocouple wire (1.3; E69)."""
         return self.series == "7019" or (self.series == "7018" and self.suffix in ("R", "Z", "BL", "-16"))
 
     @property
     def filter_from(self) -> Firmware | None:
-        """The firmware from which on the mains filter can be chosen; None: always (1.11 FF)."""
+        """The firmware from which the mains filter can be selected; None: always (1.11 FF)."""
         return Firmware("B2.7") if self.series == "7019" and self.suffix == "R" else None
 
     @property
     def character_formats_from(self) -> Firmware:
-        """The firmware from which on the line can be other than N81 (1.11 CC)."""
+        """The firmware from which the character format can be other than N81 (1.11 CC)."""
         if self.series == "7017":
             return Firmware("B2.6")
         return Firmware("B2.9") if self.series == "7018" and self.suffix != "Z" else Firmware("B3.1")
@@ -299,10 +299,10 @@ _SERIES = {model.modbus_name: model.series for model in Model}
 
 
 def series(*names: str) -> frozenset[Model]:
-    """Resolve series names of the manual to models.
+    """Return the models that names of series stand for.
 
-    A name is the beginning of the models it stands for: ``I-7017``, ``M-7018``, ``7019``. One that ends in a letter is
-    a model, or the I- and the M- of it: ``7017Z``, ``I-7018R``.
+    A name stands for all models that begin with it: ``I-7017``, ``M-7018``, ``7019``. One that ends in a letter is a
+    model, or the I- and the M- of it: ``7017Z``, ``I-7018R``.
     Errors: `EncodeError`.
     Manual: 1; E34, E36.
 
@@ -333,7 +333,7 @@ def _unipolar(firmware: Firmware | None) -> dict[TypeCode, Firmware | None]:
 
 
 def gates_of(*models: Iterable[Model], **firmware: str) -> Gates:
-    """Put together who has a thing: `models` always, those named in `firmware` from that one on."""
+    """Return gates: `models` always, and the series named in `firmware` from that version on."""
     gate: dict[Model, Firmware | None] = {model: None for group in models for model in group}
     return gate | {Model[name]: Firmware(version) for name, version in firmware.items()}
 
@@ -342,7 +342,7 @@ CONFIGURABLE = gates_of(
     series("7017Z", "M-7017RMS", "M-7017mC-16", "7018Z", "7019"),
     I_7017R="B3.9", M_7017R="B3.9", I_7018R="B4.2", M_7018R="B4.5",
 )  # fmt: skip
-"""The models whose channels can have types of their own (2.1, 2.15)."""
+"""The models whose channels can have different types (2.1, 2.15)."""
 
 TT_UNUSED = series("7017Z", "M-7017mC-16", "7018Z", "7019")
 """The models that ignore TT of ``%AANNTTCCFF``: their channels are set one by one (2.1)."""

@@ -1,7 +1,7 @@
-"""Names and firmware versions as text: which there can be, so that no other answer is taken for one (2.23, 2.24, 2.33).
+"""Names and firmware versions as text, and how to tell them from other responses (2.23, 2.24, 2.33).
 
-Laws: no version is a name; a name is no answer of another command with the same address, in whatever digits a model
-has it, but that the number of a series may be a mask of four digits (E122, an assumption).
+Laws: a version is never a name. A name is never the text of a response to another command with the same address, for
+any model. The exception is the number of a series, which may be a mask of four digits (E122, an assumption).
 """
 
 import re
@@ -26,7 +26,7 @@ _OTHER_ANSWER = rf"""(?x)
 
 
 def is_version(text: str) -> bool:
-    """Whether a module can have this firmware version: a letter, a digit, a point, one or two digits.
+    """Return whether a module can have this firmware version: a letter, a digit, a point, one or two digits.
 
     >>> is_version("A2.0"), is_version("B305")
     (True, False)
@@ -35,7 +35,7 @@ def is_version(text: str) -> bool:
 
 
 def is_name(text: str) -> bool:
-    """Whether this text can be the name of a module: 1 to 6 characters that are no other answer.
+    """Return whether a module can have this name: 1 to 6 characters that are not the text of another response.
 
     >>> is_name("7018"), is_name("OVEN 2"), is_name("0506"), is_name("A2.0"), is_name("OVEN 21")
     (True, True, False, False, False)

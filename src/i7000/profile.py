@@ -1,4 +1,4 @@
-"""What a host must know about a module to read its bytes (manual 1.9, 1.11)."""
+"""The properties of a module that a host needs to decode its bytes (manual 1.9, 1.11)."""
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -29,7 +29,7 @@ from i7000.type_codes import TypeCode, Unit
 __all__ = ["Profile"]
 
 LAST_LEGACY = Firmware("B1.4")
-"""The last firmware of the I-7018 series with readings out of range in five characters (E49)."""
+"""The last firmware of the I-7018 series that sends out-of-range readings in five characters (E49)."""
 
 
 CJC_OFFSETS = (-0x1000, 0x1000)
@@ -37,18 +37,18 @@ CJC_OFFSETS = (-0x1000, 0x1000)
 CHANNEL_OFFSETS = (-0x80, 0x7F)
 """The other offsets of a channel, in counts of 0.1 degC (3.4; E62)."""
 RESPONSE_DELAYS = (0, 30)
-"""Milliseconds that a module can wait before it responds by Modbus (3.4)."""
+"""The response delays of a module by Modbus, in milliseconds (3.4)."""
 
 
 class Numbers(NamedTuple):
-    """How the channels of a module write numbers in engineering units: what a line of all of them looks like."""
+    """The form of the numbers of all channels in a report in engineering units."""
 
     width: int
-    """The characters of the line."""
+    """The length of the data in characters."""
     points: slice | Callable[[str], tuple[str, ...]]
-    """Where the points stand in it: a slice if all channels have one type, else a function that picks them."""
+    """The positions of the points: a slice if all channels have one type, else a function that selects them."""
     all_points: str | tuple[str, ...]
-    """What stands there."""
+    """The characters at these positions."""
     lowest: tuple[float, ...]
     """The lowest number of each channel."""
     highest: tuple[float, ...]
@@ -56,9 +56,10 @@ class Numbers(NamedTuple):
 
 @frozen
 class Profile:
-    """What a host must know about a module to read its bytes; everything but the model has the factory default.
+    """The properties of a module that a host needs to decode its bytes. Only `model` is required.
 
-    Shape: `type_codes` has one entry a channel, or is empty when they are not known (the default of the I-7018BL).
+    Shape: `type_codes` has one entry for each channel, or is empty if the types are unknown (the default of the
+        I-7018BL). Every other field has the factory default.
     Errors: `EncodeError` for a combination that no module has. `attrs.evolve` makes a changed copy.
     Manual: 1.9, 1.11; E35, E83.
 
@@ -69,29 +70,29 @@ class Profile:
 
     model: Model
     firmware: Firmware | None = field(default=None, kw_only=True)
-    """None: the newest."""
+    """The firmware; None means the newest."""
     single_ended: bool = field(default=False, kw_only=True)
     """20 single-ended channels instead of 10 differential ones: 7017Z only."""
     type_codes: tuple[TypeCode, ...] = field(kw_only=True)
     data_format: DataFormat = field(default=DataFormat.ENGINEERING, kw_only=True)
     checksum: bool = field(default=False, kw_only=True)
     modbus_data_format: ModbusDataFormat = field(default=ModbusDataFormat.HEX, kw_only=True)
-    """Of M-7000 modules; which of the two is the factory default is not documented."""
+    """The Modbus data format of M-7000 modules; its factory default is not documented."""
 
     channels: int = field(init=False, eq=False, repr=False)
-    """Input channels, in the connecting mode."""
+    """The number of input channels in the connecting mode."""
     channel_digits: int = field(init=False, eq=False, repr=False)
-    """Hex digits of a channel number in DCON commands."""
+    """The number of hex digits of a channel number in DCON commands."""
     mask_digits: int = field(init=False, eq=False, repr=False)
-    """Hex digits of a channel mask in DCON commands."""
+    """The number of hex digits of a channel mask in DCON commands."""
     units: tuple[Unit, ...] = field(init=False, eq=False, repr=False)
     """The unit of each channel, if the types are known."""
     numbers: Numbers | None = field(init=False, eq=False, repr=False)
-    """What is in a report in engineering units; None for a report in another format, or of unknown types."""
+    """The numbers of a report in engineering units; None for another data format, or unknown types."""
     legacy_sentinels: bool = field(init=False, eq=False, repr=False)
-    """Whether readings out of range are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
+    """Whether out-of-range readings are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
     refused: frozenset[Availability] = field(init=False, eq=False, repr=False)
-    """What the module does not have: a message class says in `availability` what it is part of."""
+    """The members of `Availability` that the module does not have."""
 
     @type_codes.default
     def _factory_types(self) -> tuple[TypeCode, ...]:
@@ -116,22 +117,22 @@ class Profile:
 
     @property
     def name(self) -> str:
-        """The model, and its firmware if that is known: for messages."""
+        """The model, and its firmware if known: for messages."""
         return self.model.value if self.firmware is None else f"{self.model.value} with firmware {self.firmware}"
 
     def has(self, gates: Gates) -> bool:
-        """Whether `gates` are open for this model and firmware."""
+        """Return whether `gates` are open for this model and firmware."""
         if gates.__class__ is not dict:
             check_type("gates", gates, Mapping)
         return self.model in gates and self.runs(gates[self.model])
 
     def runs(self, firmware: Firmware | None) -> bool:
-        """Whether the firmware is `firmware` or a later one."""
+        """Return whether the firmware is `firmware` or later."""
         check_type("firmware", firmware, Firmware, optional=True)
         return _runs(self.firmware, firmware)
 
     def supports(self, type_code: int) -> bool:
-        """Whether the module can be set to `type_code`."""
+        """Return whether the module can be set to `type_code`."""
         code = TypeCode.of(type_code)
         return isinstance(code, TypeCode) and _supports(code, self.model, self.firmware)
 
@@ -172,18 +173,18 @@ class Profile:
 
     @property
     def has_filter(self) -> bool:
-        """Whether the mains filter can be chosen."""
+        """Whether the mains filter can be selected."""
         return self.runs(self.model.filter_from)
 
     @property
     def has_character_formats(self) -> bool:
-        """Whether the line can have other characters than N81."""
+        """Whether the character format can be other than N81."""
         return self.runs(self.model.character_formats_from)
 
     def check_channel(self, channel: int, section: str) -> None:
-        """Refuse a channel that the module does not have in its connecting mode.
+        """Raise `EncodeError` for a channel that the module does not have in its connecting mode.
 
-        Errors: `EncodeError`, with the section of the manual that the caller names, as in all of these.
+        Errors: `EncodeError`, with the section of the manual that the caller passes, as in all these checks.
         """
         if channel.__class__ is not int:
             check_int("channel", channel)
@@ -191,7 +192,7 @@ class Profile:
             raise EncodeError("channel", channel, f"0..{self.channels - 1}: {self.model.value}", section)
 
     def check_mask(self, mask: int, section: str) -> None:
-        """Refuse a mask with bits of channels that the module does not have.
+        """Raise `EncodeError` for a mask with bits of channels that the module does not have.
 
         Errors: `EncodeError`.
         """
@@ -204,7 +205,7 @@ class Profile:
             raise EncodeError("mask", f"{mask:X}", f"0..{self.channels - 1}", section, reason)
 
     def check_type_code(self, type_code: int, section: str, *, field: str = "type_code") -> None:
-        """Refuse a type code that the module cannot be set to.
+        """Raise `EncodeError` for a type code that the module cannot be set to.
 
         Errors: `EncodeError` for `field`.
         """
@@ -213,7 +214,7 @@ class Profile:
             raise EncodeError(field, TypeCode.name_of(type_code), allowed, section)
 
     def check_line(self, line: LineSettings, section: str) -> None:
-        """Refuse a line that the module cannot be set to.
+        """Raise `EncodeError` for line settings that the module cannot be set to.
 
         Errors: `EncodeError`.
         """
@@ -225,7 +226,7 @@ class Profile:
             raise EncodeError("character_format", line.character_format.name, allowed, section)
 
     def check_report(self, report: ReportSettings, section: str) -> None:
-        """Refuse settings of reports that the module cannot be set to.
+        """Raise `EncodeError` for report settings that the module cannot be set to.
 
         Errors: `EncodeError`.
         """
@@ -243,7 +244,7 @@ class Profile:
 
     @staticmethod
     def check_cjc_offset(offset: int, section: str) -> None:
-        """Refuse a CJC offset, in counts of 0.01 degC, that no module can be set to.
+        """Raise `EncodeError` for a CJC offset, in counts of 0.01 degC, that no module can be set to.
 
         Errors: `EncodeError`.
         """
@@ -255,7 +256,7 @@ class Profile:
 
     @staticmethod
     def check_name(name: str, section: str) -> None:
-        """Refuse a name that no module can have, or that is the text of another answer (E122).
+        """Raise `EncodeError` for a name that no module can have, or that is the text of another response (E122).
 
         Errors: `EncodeError`.
         """
@@ -268,13 +269,13 @@ class Profile:
 
 
 class _Places(NamedTuple):
-    """What follows from model and connecting mode."""
+    """The properties that follow from model and connecting mode."""
 
     channels: int
     channel_digits: int
     mask_digits: int
     types: tuple[TypeCode, ...]
-    """The factory's."""
+    """The factory types."""
 
 
 @lru_cache(maxsize=2 * len(Model))
@@ -287,7 +288,7 @@ def _places(model: Model, *, single_ended: bool) -> _Places:
 
 @lru_cache(maxsize=256)
 def _gated(model: Model, firmware: Firmware | None) -> tuple[bool, frozenset[Availability]]:
-    """Whether readings out of range are those of old firmware; what the module does not have."""
+    """Return whether the module has legacy sentinels, and the members of `Availability` that it does not have."""
     legacy = firmware is not None and firmware <= LAST_LEGACY and model.value.startswith("I-7018")
     closed = (it for it in Availability if model not in it.gates or not _runs(firmware, it.gates[model]))
     return legacy, frozenset(closed)
@@ -297,7 +298,7 @@ def _gated(model: Model, firmware: Firmware | None) -> tuple[bool, frozenset[Ava
 def _types(
     codes: tuple[TypeCode, ...], channels: int, model: Model, firmware: Firmware | None
 ) -> tuple[tuple[Unit, ...], Numbers | None]:
-    """The units of types, and how numbers are written if they are all of one type.
+    """Return the units of types, and the form of their numbers if all have one type.
 
     Errors: `EncodeError` for types that the module cannot have.
     """

@@ -1,10 +1,10 @@
-"""What the fields of a report mean: text, percent, hex and Modbus words <-> `Reading` (manual 1.11, 3.5, A.5).
+"""Functions that convert fields to readings and back: text, percent, hex and Modbus words (manual 1.11, 3.5, A.5).
 
-Laws: a field decodes to the double nearest to what was sent. What no module of the type writes is refused, unless the
-caller is lenient: other decimals, or a value further than a tenth of full scale beyond the span (E121), also in DCON
-hex. A register word decodes whatever its value is. A reading is encoded to the nearest count of its format, and refused
-where its type and format cannot say it; nothing is clamped. Sentinels are compared as text or word before any number is
-made of them.
+Laws: a field decodes to the double nearest to the number sent. Numbers that no module of the type sends raise
+`DecodeError`, unless `lenient` is set: wrong decimals, or a value more than a tenth of full scale beyond the span
+(E121), also in DCON hex. Every register word decodes. A reading is encoded to the nearest count of its format; readings
+that the type and format cannot express raise `EncodeError`. Nothing is clamped. Sentinels are compared as text or word
+before conversion to a number.
 """
 
 from itertools import repeat
@@ -32,7 +32,7 @@ __all__ = [
 
 
 class Reading(NamedTuple):
-    """One channel's reading.
+    """The reading of one channel.
 
     Unit: `value` is in `unit`, whatever the data format; it is None unless `status` is OK.
     """
@@ -56,14 +56,14 @@ _LEGACY_TEXTS = {status: text for text, status in LEGACY_SENTINELS.items()}
 def decode_field(
     field: str, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False, lenient: bool = False
 ) -> Reading:
-    """Read one channel's field of a DCON report.
+    """Decode the field of one channel in a DCON report.
 
     Shape: 7 characters in engineering units and percent, 4 in hex; blanks of the same width for a disabled channel.
     Unit: that of the type code. A percentage is one of `TypeCode.full_scale`; of types 07 and 1A, one of their span.
     Special: ``+9999.9`` and ``+999.99`` are over range, ``-9999.9`` and ``-999.99`` under range; with `legacy`
         (`Profile.legacy_sentinels`) ``+9999`` and ``-0000`` too. For hex see `decode_word`.
     Range: the decimals of the type, and up to a tenth of full scale beyond its span; with `lenient`, any.
-    Errors: `DecodeError` with `Fault.NUMBER`; with `CHARACTER` for what is no hex word.
+    Errors: `DecodeError` with `Fault.NUMBER`; with `CHARACTER` for an invalid hex word.
     Manual: 1.11, 2.3; E46, E48, E49, E50, E121.
 
     >>> decode_field("-025.12", TypeCode.J, DataFormat.ENGINEERING)
@@ -90,17 +90,17 @@ def decode_field(
 
 
 def _is_written(field: str, value: float, type_code: TypeCode, data_format: DataFormat) -> bool:
-    """Whether a module writes this number with this type (E121)."""
+    """Return whether a module sends this number with this type (E121)."""
     pointed = data_format is not DataFormat.ENGINEERING or field[-1 - type_code.decimals] == "."
     return pointed and type_code.lowest <= value <= type_code.highest
 
 
 _NOISE = 6
-"""Decimals after which a product of floats is noise."""
+"""The number of decimals after which a product of floats is noise."""
 
 
 def _written(type_code: TypeCode, data_format: DataFormat) -> str:
-    """What a module writes with this type, for messages."""
+    """Return what a module sends with this type, for messages."""
     low, high, unit = type_code.lowest, type_code.highest, type_code.unit
     if data_format is DataFormat.HEX:
         ends = f"{low:g}..{high:g} {unit}"
@@ -116,12 +116,12 @@ def _written(type_code: TypeCode, data_format: DataFormat) -> str:
 
 
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:
-    """Write one channel's field of a DCON report, to the nearest count.
+    """Encode the field of one channel in a DCON report, to the nearest count.
 
     Special: with `legacy` (`Profile.legacy_sentinels`) out of range is ``+9999`` and ``-0000`` in every format. Zero is
-        written with a plus, also where something negative is rounded to it.
+        written with a plus, also if a negative value is rounded to it.
     Errors: `EncodeError` for a value that is not finite, of another unit, or beyond the span of the type (in hex:
-        beyond what its words hold, see `encode_word`), and for a value beside a status that has none.
+        beyond its words, see `encode_word`), and for a value with a status that has no value.
     Manual: 1.11; E48, E49, E50.
 
     >>> encode_field(Reading(15.0, Unit.MILLIVOLT), TypeCode.MV_15, DataFormat.ENGINEERING)
@@ -150,7 +150,7 @@ def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat,
 def encode_fields(
     readings: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool = False
 ) -> tuple[str, ...]:
-    """Write the fields of all channels, channel 0 first; errors as for `encode_field`."""
+    """Encode the fields of all channels, channel 0 first; errors as for `encode_field`."""
     if data_format is DataFormat.ENGINEERING and len(set(types)) == 1:
         values, units, statuses = zip(*readings, strict=True)
         form, low, high = _TEXTS[data_format, types[0]]
@@ -169,9 +169,9 @@ def encode_fields(
 
 
 def decode_numbers(fields: tuple[str, ...], profile: Profile) -> tuple[Reading, ...] | None:
-    """Read the fields of all channels if they are numbers of their types in engineering units: nearly always.
+    """Decode the fields of all channels if all are numbers of their types in engineering units, the most common case.
 
-    Special: no channel takes a step in Python. None for any other report: see `decode_fields`.
+    Special: runs no Python code for each channel. Returns None for any other report: see `decode_fields`.
     """
     numbers = profile.numbers
     if numbers is None:
@@ -199,7 +199,7 @@ def decode_numbers(fields: tuple[str, ...], profile: Profile) -> tuple[Reading, 
 def decode_fields(
     fields: tuple[str, ...], profile: Profile, data_format: DataFormat, *, lenient: bool = False
 ) -> tuple[Reading, ...]:
-    """Read the fields of all channels, channel 0 first; they are known to be all of some one data format."""
+    """Decode the fields of all channels, channel 0 first; `fields` must be of one data format."""
     found = []
     for channel, (field, code) in enumerate(zip(fields, profile.type_codes, strict=True)):
         try:
@@ -214,7 +214,7 @@ _ALL_OK = repeat(Status.OK)
 _A_READING = repeat(Reading)
 _new = tuple.__new__
 make_reading = MethodType(tuple.__new__, Reading)
-"""Of value, unit and status: without the step in Python that `Reading` takes."""
+"""Makes a reading of value, unit and status, faster than `Reading`."""
 
 # --- 16-bit words -----------------------------------------------------------------------------------------------------
 
@@ -230,10 +230,10 @@ def _hex_sentinels(type_code: TypeCode) -> dict[int, Status]:
 
 
 def decode_word(word: int, type_code: TypeCode) -> Reading:
-    """Read one channel's word in the hex data format, of DCON or Modbus.
+    """Decode the word of one channel in the hex data format, of DCON or Modbus.
 
-    Shape: 0..65535; two's complement but for types 07 and 1A.
-    Unit: upwards of zero `TypeCode.full_scale` / 32767 a count, downwards / 32768; types 07 and 1A: their span / 65535.
+    Shape: 0..65535; two's complement except for types 07 and 1A.
+    Unit: one count is `TypeCode.full_scale` / 32767 above zero, / 32768 below; types 07 and 1A: their span / 65535.
     Special: 7FFF and 8000 of a thermocouple are over and under range. 0000 of type 07 is under range, although exactly
         4 mA has the same word: engineering text and the range status bits (10129..) tell the two apart.
     Manual: 1.11, A.5; E45, E46, E47, E54.
@@ -252,9 +252,9 @@ def decode_word(word: int, type_code: TypeCode) -> Reading:
 
 
 def encode_word(reading: Reading, type_code: TypeCode) -> int:
-    """Write one channel's word in the hex data format: the one that `decode_word` reads as nearest to the value.
+    """Encode the word of one channel in the hex data format: the word that `decode_word` decodes nearest to the value.
 
-    Special: the full scale of a thermocouple is 7FFF, as printed, and reads back as over range.
+    Special: the full scale of a thermocouple is 7FFF, as printed, and decodes as over range.
     Errors: `EncodeError` for a value that is not finite, of another unit or beyond +/- `TypeCode.full_scale` (types 07
         and 1A: beyond the span), and for a status that has no word with this type.
     Manual: 1.11, A.5; E46, E47, E51.
@@ -280,10 +280,10 @@ def encode_word(reading: Reading, type_code: TypeCode) -> int:
 
 
 def decode_engineering_word(word: int, type_code: TypeCode) -> Reading:
-    """Read one channel's word in the Modbus engineering data format.
+    """Decode the word of one channel in the Modbus engineering data format.
 
     Shape: 0..65535, two's complement.
-    Unit: 10 ** -`TypeCode.modbus_decimals` of the type's unit a count.
+    Unit: one count is 10 ** -`TypeCode.modbus_decimals` of the type's unit.
     Special: 32767 is over range, -32768 under range.
     Manual: 3.5; E50, E52, E53.
 
@@ -298,7 +298,7 @@ def decode_engineering_word(word: int, type_code: TypeCode) -> Reading:
 
 
 def encode_engineering_word(reading: Reading, type_code: TypeCode) -> int:
-    """Write one channel's word in the Modbus engineering data format, to the nearest count.
+    """Encode the word of one channel in the Modbus engineering data format, to the nearest count.
 
     Errors: `EncodeError` for a value that is not finite, of another unit or beyond the span; for a disabled channel.
     Manual: 3.5.
@@ -337,7 +337,7 @@ def _sentinel_word(reading: Reading, type_code: TypeCode, sentinels: dict[int, S
 
 
 def _from_part(part: float, whole: int, type_code: TypeCode) -> float:
-    """The value at `part` of `whole` of the scale, with one rounding only."""
+    """Return the value at `part` of `whole` of the scale, rounded only once."""
     if type_code.signed_hex:
         return part * type_code.full_scale / whole
     return (type_code.minimum * whole + part * (type_code.maximum - type_code.minimum)) / whole
@@ -350,7 +350,7 @@ def _percent(value: float, type_code: TypeCode) -> float:
 
 
 _TEXTS: dict[tuple[DataFormat, TypeCode], tuple[str, float, float]] = {}
-"""How numbers are written as text, and from where to where."""
+"""The text form of numbers, and their range."""
 for _code in TypeCode:
     _low, _high = _code.minimum, _code.maximum
     _TEXTS[DataFormat.ENGINEERING, _code] = (f"%+0{TEXT_WIDTH}.{_code.decimals}f", _low, _high)
@@ -361,12 +361,12 @@ for _code in TypeCode:
 _MINUS_ZEROS = frozenset(form % -0.0 for form, _, _ in _TEXTS.values())
 
 _HUGE = 1e9
-"""Beyond every span, and small enough to be scaled."""
+"""A number beyond every span, and small enough to be scaled."""
 _NUMBERS = (int, float)
 
 
 def _check(reading: Reading, type_code: TypeCode) -> None:
-    """Refuse what is no reading of a channel of this type, whatever its value."""
+    """Raise `EncodeError` for an invalid reading of a channel of this type, whatever its value."""
     if not isinstance(reading.status, Status):
         raise EncodeError("status", reading.status, "a Status", "1.11")
     if reading.unit is not type_code.unit:
@@ -376,7 +376,7 @@ def _check(reading: Reading, type_code: TypeCode) -> None:
 
 
 def _number(reading: Reading) -> float:
-    """The value of a reading that is to be sent as a number."""
+    """Return the value of a reading that is sent as a number."""
     value = reading.value
     if isinstance(value, bool) or not isinstance(value, _NUMBERS) or not -_HUGE < value < _HUGE:
         raise EncodeError("value", value, "a finite number, of a size that a module can measure", "1.11")

@@ -1,7 +1,7 @@
 """The coded settings of a module: line (CC), reports (FF), protocol, cold-junction update (manual 1.11, 2).
 
-Laws: every byte survives: a code that the manual does not define stays a number, reserved bits are kept. Whether a
-module would take it is the business of the encoder, which knows the model.
+Laws: every byte survives a round trip: an undefined code is kept as an int, and reserved bits are kept. The encoder,
+which has the model, checks if a module accepts it.
 """
 
 from collections.abc import Iterable
@@ -46,12 +46,12 @@ class BaudRate(IntEnum):
 
     @property
     def bits_per_second(self) -> int:
-        """The rate itself."""
+        """The baud rate in bits per second."""
         return int(self.name.removeprefix("BAUD_"))
 
     @classmethod
     def of(cls, code: int) -> "BaudRate | int":
-        """The member of `code`; a code that is none stays the number it is."""
+        """Return the member of `code`; an undefined code is kept as an int."""
         if code.__class__ is not int:
             check_int("code", code)
         return _BAUD_RATES.get(code, code)
@@ -70,22 +70,22 @@ class CharacterFormat(IntEnum):
 
     @property
     def parity(self) -> str:
-        """``N``, ``E`` or ``O``."""
+        """The parity: ``N``, ``E`` or ``O``."""
         return self.name[0]
 
     @property
     def stop_bits(self) -> int:
-        """One or two."""
+        """The number of stop bits: 1 or 2."""
         return int(self.name[2])
 
     @property
     def bits(self) -> int:
-        """Bit times of one character on the line, start bit included."""
+        """The length of one character in bits, start bit included."""
         return 9 + (self.parity != "N") + self.stop_bits
 
 
 class DataFormat(IntEnum):
-    """How DCON readings are written, bits 1:0 of FF."""
+    """The data format of DCON readings, bits 1:0 of FF."""
 
     ENGINEERING = 0
     PERCENT = 1
@@ -93,7 +93,7 @@ class DataFormat(IntEnum):
 
     @classmethod
     def of(cls, code: int) -> "DataFormat | int":
-        """The member of `code`; the undefined code 3 stays a number."""
+        """Return the member of `code`; the undefined code 3 is kept as an int."""
         if code.__class__ is not int:
             check_int("code", code)
         return _DATA_FORMATS.get(code, code)
@@ -103,7 +103,7 @@ _DATA_FORMATS: dict[int, DataFormat] = {member.value: member for member in DataF
 
 
 class ModbusDataFormat(IntEnum):
-    """How Modbus readings are written, coil 00269 (manual 3.4); the factory default is not documented (E83)."""
+    """The data format of Modbus readings, coil 00269 (manual 3.4); the factory default is not documented (E83)."""
 
     HEX = 0
     ENGINEERING = 1
@@ -117,14 +117,14 @@ class Filter(Enum):
 
 
 class Protocol(IntEnum):
-    """The protocol a module speaks after its next power-on."""
+    """The protocol of a module after its next power-on."""
 
     DCON = 0
     MODBUS_RTU = 1
 
 
 class CjcUpdate(IntEnum):
-    """What the cold-junction temperature does."""
+    """The update of the cold-junction temperature."""
 
     STOPPED = 0
     STARTED = 1
@@ -132,7 +132,7 @@ class CjcUpdate(IntEnum):
 
 
 class LogCommand(IntEnum):
-    """What the data logger of the M-7017mC-16 is told to do (40876)."""
+    """The command to the data logger of the M-7017mC-16 (40876)."""
 
     STOP = 0
     CONTINUOUS = 1
@@ -140,7 +140,7 @@ class LogCommand(IntEnum):
 
 
 def is_int(value: object, low: int, high: int) -> bool:
-    """Whether a value is an int in a range, and no truth value."""
+    """Return whether a value is an int in a range, and not a bool."""
     return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
 
@@ -169,7 +169,7 @@ class LineSettings:
 
     @classmethod
     def from_byte(cls, byte: int) -> Self:
-        """Read CC.
+        """Decode CC.
 
         >>> LineSettings.from_byte(0x86)
         LineSettings(baud_rate=<BaudRate.BAUD_9600: 6>, character_format=<CharacterFormat.E81: 2>)
@@ -179,13 +179,13 @@ class LineSettings:
 
     @property
     def byte(self) -> int:
-        """CC itself."""
+        """The byte CC."""
         return self.character_format << 6 | self.baud_rate
 
 
 @frozen
 class ReportSettings:
-    """The byte FF: how readings are taken and written, and whether frames carry a checksum.
+    """The byte FF: how inputs are sampled, the data format, and whether frames have a checksum.
 
     Shape: bits 1:0 `data_format`, 4:2 `reserved`, 5 `fast_mode`, 6 `checksum`, 7 `filter`.
     Manual: 1.11; E89, E95, E96.
@@ -211,7 +211,7 @@ class ReportSettings:
 
     @classmethod
     def from_byte(cls, byte: int) -> Self:
-        """Read FF.
+        """Decode FF.
 
         >>> ReportSettings.from_byte(0xC2).checksum, ReportSettings.from_byte(0xC2).filter
         (True, <Filter.REJECT_50_HZ: True>)
@@ -227,14 +227,14 @@ class ReportSettings:
 
     @property
     def byte(self) -> int:
-        """FF itself."""
+        """The byte FF."""
         return self.filter.value << 7 | self.checksum << 6 | self.fast_mode << 5 | self.reserved << 2 | self.data_format
 
 
 def channels_of(mask: int) -> frozenset[int]:
-    """List the channels of a mask.
+    """Return the channels of a mask.
 
-    Errors: `EncodeError` for a number that no mask can be: of more than 24 bits, or negative.
+    Errors: `EncodeError` for a negative number, or one of more than 24 bits.
 
     >>> sorted(channels_of(0x3A))
     [1, 3, 4, 5]
@@ -246,9 +246,9 @@ def channels_of(mask: int) -> frozenset[int]:
 
 
 def mask_of(channels: Iterable[int]) -> int:
-    """Make the mask of a set of channels, channel 0 the lowest bit.
+    """Return the mask of a set of channels, channel 0 the lowest bit.
 
-    Errors: `EncodeError` for what is no channel of any module.
+    Errors: `EncodeError` for a channel that no module has.
 
     >>> f"{mask_of({1, 3, 4, 5}):02X}"
     '3A'

@@ -1,7 +1,7 @@
 """The analog input types: code, unit, span and the scale of every data format (manual 1.11, 3.5, A.5).
 
-Laws: a member states what a person chose (code, unit, span, thermocouple); everything that follows from it is computed.
-The printed tables stand in ``spec/tables`` and tests hold the rules here against them.
+Laws: a member states only independent facts (code, unit, span, thermocouple); everything that follows from them is
+computed. The printed tables are in ``spec/tables``, and tests check the rules here against them.
 """
 
 from enum import IntEnum, StrEnum
@@ -11,7 +11,7 @@ from i7000.arguments import check_int
 __all__ = ["MIXED", "TypeCode", "Unit"]
 
 MIXED = 0xFF
-"""What stands in the place of a type code when the channels of a module have different ones (manual 2.1, 2.10)."""
+"""The value in place of a type code if the channels of a module have different types (manual 2.1, 2.10)."""
 
 _TEXT_DIGITS = 5
 _INT16_MAX = 32767
@@ -37,19 +37,19 @@ class TypeCode(IntEnum):
     minimum: float
     maximum: float
     thermocouple: str
-    """The thermocouple's letter, or empty."""
+    """The letter of the thermocouple, or empty."""
     full_scale: float
-    """The larger absolute value of the span, MAX of the manual: what 100 % and 7FFF stand for."""
+    """The larger absolute value of the span, MAX of the manual: the value of 100 % and of 7FFF."""
     signed_hex: bool
     """Whether a hex word is two's complement; the other two types run from 0000 at `minimum` to FFFF (E45)."""
     decimals: int
-    """Digits after the point of the DCON engineering text: five digits in all."""
+    """The number of digits after the point in DCON engineering text, which has five digits."""
     lowest: float
-    """The lowest reading that a module writes: a tenth of `full_scale` below the span (E121, assumption)."""
+    """The lowest reading that a module sends: a tenth of `full_scale` below the span (E121, assumption)."""
     highest: float
-    """The highest one: a tenth of `full_scale` above the span."""
+    """The highest reading that a module sends: a tenth of `full_scale` above the span."""
     modbus_decimals: int
-    """Digits after the point of the Modbus engineering word: as in text, less one where 16 bits cannot hold it."""
+    """The number of decimals of the Modbus engineering word: as in text, or one less to fit in 16 bits."""
 
     MV_15 = 0x00
     MV_50 = 0x01
@@ -83,7 +83,7 @@ class TypeCode(IntEnum):
 
     @staticmethod
     def name_of(code: int) -> str:
-        """Return the name of a type, or the two hex digits of a code that is undefined.
+        """Return the name of a type, or the two hex digits of an undefined code.
 
         >>> TypeCode.name_of(0x0F), TypeCode.name_of(0x20)
         ('K', '20')
@@ -93,7 +93,7 @@ class TypeCode(IntEnum):
 
     @classmethod
     def of(cls, code: int) -> "TypeCode | int":
-        """The member of `code`; a code that is none (`MIXED`, say) stays the number it is."""
+        """Return the member of `code`; an undefined code, such as `MIXED`, is kept as an int."""
         if code.__class__ is not int:
             check_int("code", code)
         return _MEMBERS.get(code, code)

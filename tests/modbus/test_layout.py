@@ -74,6 +74,6 @@ def test_four_bytes_are_the_name_of_a_series_or_none(name: str, series: str | No
 
 
 def test_help_shows_the_values_of_a_field() -> None:
-    shown = str(signature(modbus.SetCjcUpdate))
+    shown = str(signature(modbus.SetCjcUpdate)).replace("typing.", "")  # which Python 3.12 does not show
 
-    assert "address: typing.Annotated[int, <0..247>]" in shown
+    assert "address: Annotated[int, <0..247>]" in shown

@@ -7,17 +7,16 @@ Laws: `fields` are those of the class, numbers as numbers, bytes of settings as 
 import json
 from collections.abc import Iterable
 from enum import Enum
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from attrs import fields
 
-from i7000 import LineSettings, ReportSettings, dcon, modbus
+from i7000 import LineSettings, ReportSettings, Status, dcon, modbus
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
 from i7000.dissect.meaning import errata
-from i7000.message import Message
 from i7000.settings import Protocol
 
 __all__ = [
@@ -46,9 +45,14 @@ _json = json.JSONEncoder(check_circular=False).encode
 _UNKNOWN_JSON = _json(_UNKNOWN)[1:-1]
 
 
-def parts_of(kind: type[Message]) -> dict[str, Any]:
+def parts_of(kind: Any) -> dict[str, Any]:  # noqa: ANN401 - a message class
     """Return the fields of a message class with their attrs, whose type has the part of the layout."""
-    return {field.name: field for field in fields(kind)}  # type: ignore[arg-type] # all of them are attrs classes
+    return {field.name: field for field in fields(kind)}
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a message class
+    return tuple(parts_of(kind))
 
 
 # --- decode -----------------------------------------------------------------------------------------------------------
@@ -61,7 +65,8 @@ def json_of(read: Read) -> str:
     middle = _UNKNOWN_JSON
     if heard is not None and meaning is not None:
         middle = (_remembered_json if len(heard.wire) <= _SHORT else _meaning_json)(meaning)
-    return f"{_json(_head(read))[:-1]}, {middle}, {_json(_tail(read, meaning))[1:]}"
+    good = meaning is not None and heard is not None and not heard.notes and heard.understood
+    return f"{_json(_head(read))[:-1]}, {middle}, {_NOTHING_WRONG if good else _json(_tail(read, meaning))[1:]}"
 
 
 def _head(read: Read) -> Record:
@@ -99,6 +104,10 @@ def _tail(read: Read, meaning: Meaning | None) -> Record:
         "error": None if heard.error is None else str(heard.error),
         "fault": None if heard.error is None else heard.error.fault.value,
     }
+
+
+_NOTHING_WRONG = _json(_tail(Read(0, 0, 0, "", None, None), None))[1:]
+"""The keys of a frame of which nothing else is to be said."""
 
 
 def _frame(heard: Heard) -> str:
@@ -139,12 +148,66 @@ def meaning_record(meaning: Meaning) -> Record:
 
 
 def _meaning_json(meaning: Meaning) -> str:
-    """Return the keys of a meaning as a part of a JSON object."""
-    return _json(meaning_record(meaning))[1:-1]
+    """Return the keys of a meaning as a part of a JSON object.
+
+    Special: of readings, of which a log has most, only what differs is encoded each time.
+    """
+    if not meaning.readings:
+        return _json(meaning_record(meaning))[1:-1]
+    before, after = _around_readings(meaning)
+    kind: Any = type(meaning.message)
+    values = {name: _plain(getattr(meaning.message, name)) for name in _names(kind)}
+    words = {}
+    if len(values) > 1 or not values.keys() <= VALUES:
+        words = {field.name: field.text for field in meaning.fields if field.name not in VALUES}
+    readings = ", ".join(map(_reading_json, meaning.readings))
+    items = ", ".join(map(_item_json, meaning.items))
+    return (
+        f'{before}, "fields": {_json(values)}, "explained": {_json(words) if words else "{}"}, '
+        f'"readings": [{readings}], "registers": [{items}], {after}'
+    )
+
+
+def _around_readings(meaning: Meaning) -> tuple[str, str]:
+    """Return the keys before and after those of the readings, which all reports of a module share."""
+    key = (type(meaning.message), type(meaning.command), meaning.fit, meaning.assumed)
+    found = _AROUND.get(key)
+    if found is None:
+        if len(_AROUND) >= _REMEMBERED:
+            _AROUND.clear()
+        record = meaning_record(meaning)
+        keys = list(record)
+        parts = (keys[: keys.index("fields")], keys[keys.index("errata") :])
+        before, after = ({name: record[name] for name in part} for part in parts)
+        found = _AROUND[key] = _json(before)[1:-1], _json(after)[1:-1]
+    return found
+
+
+_AROUND: dict[tuple[Any, ...], tuple[str, str]] = {}
+
+
+def _reading_json(reading: ChannelReading) -> str:
+    channel, text, status, type_code, value, unit = reading
+    if status is not Status.OK or channel is None or type_code is None:
+        return _json(_reading(reading))
+    return (
+        f'{{"channel": {channel}, "text": "{text}", "status": "ok", "type_code": {type_code:d}, '
+        f'"value": {value!r}, "unit": "{unit}"}}'
+    )
+
+
+def _item_json(item: Item) -> str:
+    number, name, channel, value, unit, text, reading, _ = item
+    if reading is None or reading.status is not Status.OK or channel is None:
+        return _json(_item(item))
+    return (
+        f'{{"number": "{number}", "name": "{name}", "channel": {channel}, "value": {value!r}, "unit": "{unit}", '
+        f'"status": "ok", "text": "{text}"}}'
+    )
 
 
 _remembered_json = lru_cache(maxsize=_REMEMBERED)(_meaning_json)
-VALUES = ("value", "values")
+VALUES = frozenset(("value", "values"))
 """Fields that readings and registers show."""
 OPTIONS = {"types": "type", "data_format": "format", "modbus_data_format": "modbus_format"}
 """The options that say what is assumed."""

@@ -1,8 +1,8 @@
 """The DCON protocol (manual 2): every command and response, and the functions that write and read them.
 
-`encode` and `decode_response` are the host's side, `decode_command` and `encode` the module's; `split` finds frames in
-what a line delivers; `readings` tells what the fields of a report mean. All that their modules name in
-`__all__` is public, and is found here.
+A host uses `encode` and `decode_response`; a simulated module uses `decode_command` and `encode`. `split` finds frames
+in received bytes; `readings` decodes the fields of a report. Every name in `__all__` of the submodules is public and
+can be imported from here.
 """
 
 from i7000.dcon import (

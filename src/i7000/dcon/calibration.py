@@ -1,8 +1,8 @@
 """Calibration (manual 1.10, 2.5, 2.6, 2.7, 2.8, 2.9, 2.27, 2.28, 2.31).
 
-Laws: a calibration command is refused unless `SetCalibrationEnabled` came before it. The digit after the address means
-opposite things: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and ``1`` span for single channels of the
-7019 series, and ``0`` span for those of the M-7017mC-16; the model decides, never the characters (E7, E9).
+Laws: a module refuses a calibration command unless `SetCalibrationEnabled` came before it. The digit after the address
+has opposite meanings: ``0`` is span and ``1`` zero for whole modules, ``0`` zero and ``1`` span for single channels
+of the 7019 series, and ``0`` span for those of the M-7017mC-16; the model decides, not the characters (E7, E9).
 """
 
 from attrs import field
@@ -26,7 +26,7 @@ __all__ = [
 
 
 class CalibrateSpan(Command[Acknowledged]):
-    """Calibrate the span, with the span signal applied.
+    """A command to calibrate the span, with the span signal applied.
 
     Wire: ``$AA0`` -> ``!AA``
     Models: 7017 and 7018 series.
@@ -40,7 +40,7 @@ class CalibrateSpan(Command[Acknowledged]):
 
 
 class CalibrateZero(Command[Acknowledged]):
-    """Calibrate the zero, with the zero signal applied.
+    """A command to calibrate the zero, with the zero signal applied.
 
     Wire: ``$AA1`` -> ``!AA``
     Models: 7017 and 7018 series.
@@ -55,7 +55,7 @@ class CalibrateZero(Command[Acknowledged]):
 
 @frozen
 class CalibrateCurrentChannelSpan(Command[Acknowledged]):
-    """Calibrate the span of one current input, with the span signal applied.
+    """A command to calibrate the span of one current input, with the span signal applied.
 
     Wire: ``$AA0Ci`` -> ``!AA``
     Models: M-7017mC-16; the same characters are `CalibrateChannelZero` for the 7019 series.
@@ -72,7 +72,7 @@ class CalibrateCurrentChannelSpan(Command[Acknowledged]):
 
 @frozen
 class CalibrateChannelZero(Command[Acknowledged]):
-    """Calibrate the zero of one channel, with the zero signal applied.
+    """A command to calibrate the zero of one channel, with the zero signal applied.
 
     Wire: ``$AA0Ci`` -> ``!AA``
     Time: about 16 s with firmware up to B2.6.
@@ -89,13 +89,13 @@ class CalibrateChannelZero(Command[Acknowledged]):
     channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         profile.check_channel(self.channel, self.section)
 
 
 @frozen
 class CalibrateChannelSpan(Command[Acknowledged]):
-    """Calibrate the span of one channel, with the span signal applied.
+    """A command to calibrate the span of one channel, with the span signal applied.
 
     Wire: ``$AA1Ci`` -> ``!AA``
     Time: about 16 s with firmware up to B2.6.
@@ -112,12 +112,12 @@ class CalibrateChannelSpan(Command[Acknowledged]):
     channel: parts.CalibratedChannel
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         profile.check_channel(self.channel, self.section)
 
 
 class CalibrateInternally(Command[Acknowledged]):
-    """Calibrate the module against itself.
+    """A command to calibrate the module against itself.
 
     Wire: ``$AAS0`` -> ``!AA``
     Models: 7019 series.
@@ -131,7 +131,7 @@ class CalibrateInternally(Command[Acknowledged]):
 
 
 class ReloadDefaultCalibration(Command[Acknowledged]):
-    """Load the factory's calibration, the internal one included.
+    """A command to load the factory calibration, the internal calibration included.
 
     Wire: ``$AAS1`` -> ``!AA``
     Time: about 3 s.
@@ -147,7 +147,7 @@ class ReloadDefaultCalibration(Command[Acknowledged]):
 
 @frozen
 class SetCalibrationEnabled(Command[Acknowledged]):
-    """Allow or forbid the calibration commands.
+    """A command to allow or forbid calibration commands.
 
     Wire: ``~AAEV`` -> ``!AA``
     Manual: 2.31, 1.10; E10, E33.

@@ -1,8 +1,8 @@
-"""Messages <-> frames, for a profile: the functions that `i7000.dcon` is about.
+"""Functions that convert messages to frames and back, for a profile.
 
-Laws: `encode` raises nothing but `EncodeError`, the decoders nothing but `DecodeError`; decoding what was encoded gives
-the message back. A frame that any module could have sent or been sent decodes, even if this module would refuse it:
-`encode` is where a channel, type or limit is held against the model.
+Laws: `encode` raises only `EncodeError`; the decoders raise only `DecodeError`. Decoding an encoded message returns an
+equal message. Every frame that some module can send or receive decodes, even if this module would refuse it. Only
+`encode` checks channels, types and limits against the model.
 """
 
 from collections.abc import Iterable
@@ -39,7 +39,7 @@ __all__ = [
 ]
 
 AnyCommand = Command[Any] | Broadcast
-"""What a host sends."""
+"""The messages that a host sends."""
 
 _FAMILIES = (calibration, cold_junction, configuration, identity, inputs, open_wire, sampling, watchdog)
 _FOUND: list[type[AnyCommand]] = [command for family in _FAMILIES for command in family.COMMANDS]
@@ -52,11 +52,11 @@ R = TypeVar("R", bound=Response)
 
 
 _LETTERED = "$~@"
-"""The leading characters of the commands that are told apart by what follows the address."""
+"""The leading characters of the commands that are distinguished by the character after the address."""
 
 
 def _key(text: str) -> str:
-    """What commands are sorted by: the leading character, and the one after the address where that tells them apart."""
+    """Return the key of a command: the leading character, and the one after the address for `_LETTERED`."""
     return text[0] + text[3:4] if text[0] in _LETTERED else text[0]
 
 
@@ -66,11 +66,11 @@ for _command in COMMANDS:
 
 
 def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
-    r"""Write a command, broadcast or response as a frame.
+    r"""Encode a command, broadcast or response as a frame.
 
-    Special: with `force` it is written even if the module does not have it or would refuse it, as long as it has a
-        wire form there: for those who test modules.
-    Errors: `EncodeError` that tells the reason.
+    Special: with `force`, messages that the module does not have or would refuse are encoded too, as long as they have
+        a wire form. Use it to test modules.
+    Errors: `EncodeError` with the reason.
     Manual: 2.
 
     >>> from i7000 import Model
@@ -95,11 +95,12 @@ def encode(message: Message, profile: Profile, *, force: bool = False) -> bytes:
 
 
 def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
-    r"""Read a frame that a host sent to the module of `profile`.
+    r"""Decode a frame that a host sent to the module of `profile`.
 
-    Special: a channel, type or limit that the module does not have is read all the same: the module answers ``?AA``.
-    Errors: `DecodeError`; with `Fault.UNSUPPORTED` for a command that the module does not have. A body that is no
-        command has the fault of the command that it comes nearest to.
+    Special: a command with a channel, type or limit that the module does not have is decoded; the module answers
+        ``?AA``.
+    Errors: `DecodeError`; with `Fault.UNSUPPORTED` for a command that the module does not have. For an unknown body,
+        the error is that of the most similar command.
     Manual: 2; E7, E8, E10, E27, E93.
 
     >>> from i7000 import Model
@@ -133,16 +134,16 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
 
 
 def deepest(faults: Iterable[DecodeError]) -> DecodeError:
-    """The fault of the command that a frame comes nearest to: it fits the furthest, and has the right length."""
+    """Return the error of the most similar command: the one that matches furthest and has the right length."""
     misfits = (Fault.COMMAND, Fault.UNSUPPORTED)
     return max(faults, key=lambda it: (it.fault not in misfits, it.fault is not Fault.LENGTH, it.offset))
 
 
 def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | Refused:
-    r"""Read the frame that answers `command`.
+    r"""Decode the response to `command`.
 
-    Special: ``$002``, asked in INIT mode, is answered from the stored address (assumption), so any is accepted.
-    Errors: `DecodeError`; with `Fault.ADDRESS` for the answer of another module, where the answer tells.
+    Special: in INIT mode a module answers ``$002`` with its stored address (assumption), so every address is accepted.
+    Errors: `DecodeError`; with `Fault.ADDRESS` for the response of another module, if the response contains an address.
     Manual: 2; E16, E18, E24.
 
     >>> from i7000 import Model
@@ -169,7 +170,7 @@ def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | 
 
 
 def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # noqa: ANN401 - one with an address
-    """Hold what a response repeats of its command against the command."""
+    """Check the parts of a response that repeat the command."""
     expected = command.address if isinstance(response, Refused) else command.answering_address
     told_in_init_mode = isinstance(command, ReadConfiguration) and command.address == 0
     if response.address != expected and not told_in_init_mode:
@@ -183,7 +184,7 @@ def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # 
 
 
 def is_answered(command: AnyCommand) -> bool:
-    """Return whether a module answers: not if the command is a broadcast.
+    """Return whether a module answers `command`: False for a broadcast.
 
     >>> is_answered(ReadConfiguration(0x01))
     True
@@ -193,7 +194,7 @@ def is_answered(command: AnyCommand) -> bool:
 
 
 def longest_response(command: AnyCommand, profile: Profile) -> int:
-    """Tell the bytes of the longest answer to `command`, carriage return included; 0 for a broadcast.
+    """Return the length in bytes of the longest response to `command`, carriage return included; 0 for a broadcast.
 
     >>> from i7000 import Model
     >>> longest_response(ReadConfiguration(0x01), Profile(Model.I_7017))
@@ -207,7 +208,7 @@ def longest_response(command: AnyCommand, profile: Profile) -> int:
 
 
 def pause_after(command: AnyCommand, profile: Profile) -> float:
-    """Tell how many seconds to leave the module alone after `command`.
+    """Return how many seconds to wait after `command` before the next one.
 
     Time: 2 ms after broadcasts; 3 s for `ReloadDefaultCalibration`; 16 s for the calibration of a channel of the 7019
         series with firmware up to B2.6.

@@ -25,7 +25,7 @@ __all__ = [
 
 @frozen
 class CjcTemperature(Response):
-    """Tell the temperature of the cold junction.
+    """The temperature of the cold junction.
 
     Wire: ``>(Data)``
     Shape: sign, four digits, a point and one digit.
@@ -42,7 +42,7 @@ class CjcTemperature(Response):
 
 
 class ReadCjcTemperature(Command[CjcTemperature]):
-    """Ask for the temperature of the cold junction.
+    """A command to read the temperature of the cold junction.
 
     Wire: ``$AA3`` -> ``>(Data)``
     Models: 7018 and 7019 series.
@@ -57,7 +57,7 @@ class ReadCjcTemperature(Command[CjcTemperature]):
 
 @frozen
 class CjcOffset(Response):
-    """Tell the offset of the cold-junction temperature.
+    """The offset of the cold-junction temperature.
 
     Wire: ``!AA(Data)``
     Shape: a sign and the magnitude in four hex digits; ``-0000`` is read as 0.
@@ -78,12 +78,12 @@ class CjcOffset(Response):
         return self.offset / 100
 
     def check(self, profile: Profile) -> None:
-        """Refuse an offset beyond the limit."""
+        """Raise `EncodeError` for an offset beyond the limit."""
         profile.check_cjc_offset(self.offset, self.section)
 
 
 class ReadCjcOffset(Command[CjcOffset]):
-    """Ask for the offset of the cold-junction temperature.
+    """A command to read the offset of the cold-junction temperature.
 
     Wire: ``$AA9`` -> ``!AA(Data)``
     Models: 7018 and 7019 series.
@@ -98,7 +98,7 @@ class ReadCjcOffset(Command[CjcOffset]):
 
 @frozen
 class SetCjcOffset(Command[Acknowledged]):
-    """Set the offset of the cold-junction temperature.
+    """A command to set the offset of the cold-junction temperature.
 
     Wire: ``$AA9SNNNN`` -> ``!AA``
     Shape: a sign and the magnitude in four hex digits; ``-0000`` is read as 0.
@@ -117,13 +117,13 @@ class SetCjcOffset(Command[Acknowledged]):
     offset: parts.Offset
 
     def check(self, profile: Profile) -> None:
-        """Refuse an offset beyond the limit."""
+        """Raise `EncodeError` for an offset beyond the limit."""
         profile.check_cjc_offset(self.offset, self.section)
 
 
 @frozen
 class CjcUpdateSetting(Response):
-    """Tell whether the cold-junction temperature is being updated.
+    """The update setting of the cold-junction temperature: started, stopped or once.
 
     Wire: ``!AAi``
     Manual: 2.20; E8, E115.
@@ -138,7 +138,7 @@ class CjcUpdateSetting(Response):
 
 
 class ReadCjcUpdate(Command[CjcUpdateSetting]):
-    """Ask whether the cold-junction temperature is being updated.
+    """A command to read whether the cold-junction temperature is being updated.
 
     Wire: ``$AAA`` -> ``!AAi``
     Models: 7019 series; the same characters are `ReadAnalogInputsHex` for the 7017 series.
@@ -153,7 +153,7 @@ class ReadCjcUpdate(Command[CjcUpdateSetting]):
 
 @frozen
 class SetCjcUpdate(Command[Acknowledged]):
-    """Start or stop the update of the cold-junction temperature, or update it once.
+    """A command to start or stop the update of the cold-junction temperature, or update it once.
 
     Wire: ``$AAAi`` -> ``!AA``
     Models: 7019 series.
@@ -170,7 +170,7 @@ class SetCjcUpdate(Command[Acknowledged]):
 
 @frozen
 class CjcEnabled(Response):
-    """Tell whether the cold junction is compensated.
+    """The state of the cold-junction compensation: on or off.
 
     Wire: ``!AAN``
     Manual: 2.29.
@@ -185,7 +185,7 @@ class CjcEnabled(Response):
 
 
 class ReadCjcEnabled(Command[CjcEnabled]):
-    """Ask whether the cold junction is compensated.
+    """A command to read whether cold-junction compensation is on.
 
     Wire: ``~AAC`` -> ``!AAN``
     Models: 7018 and 7019 series.
@@ -200,7 +200,7 @@ class ReadCjcEnabled(Command[CjcEnabled]):
 
 @frozen
 class SetCjcEnabled(Command[Acknowledged]):
-    """Switch the compensation of the cold junction on or off.
+    """A command to switch cold-junction compensation on or off.
 
     Wire: ``~AACN`` -> ``!AA``
     Models: 7018 and 7019 series.

@@ -1,7 +1,7 @@
-"""What every DCON message is, and the answers that many commands share (manual 2).
+"""The base classes of DCON messages, and the two responses that many commands share (manual 2).
 
-Laws: a message that can be constructed has a wire form; whether a certain model takes it is what `check` knows. A
-command names its response by type: ``class ReadConfiguration(Command[Configuration])``.
+Laws: every message that can be constructed has a wire form; `check` raises if a model does not accept it. A command
+names the type of its response: ``class ReadConfiguration(Command[Configuration])``.
 """
 
 from typing import ClassVar, Generic, TypeVar
@@ -26,7 +26,7 @@ class Message(message.Message):
 
 
 class Response(Message):
-    """What a module answers."""
+    """The base class of responses: the messages that a module sends."""
 
     __slots__ = ()
 
@@ -38,7 +38,7 @@ R = TypeVar("R", bound=Response)
 
 
 class Broadcast(Message):
-    """A command to all modules; none answers."""
+    """The base class of broadcasts: commands to all modules, without a response."""
 
     __slots__ = ()
 
@@ -47,7 +47,7 @@ class Broadcast(Message):
 
 @message.frozen
 class Command(Message, Generic[R]):
-    """A command to one module, and the type of its valid response."""
+    """The base class of commands to one module; `response` is the type of the valid response."""
 
     response: ClassVar[type[Response]]
     _instead = "one of the commands, such as ReadConfiguration"
@@ -66,7 +66,7 @@ class Command(Message, Generic[R]):
 
 @message.frozen
 class Acknowledged(Response):
-    """Say that a command was carried out.
+    """The response that a command was carried out.
 
     Wire: ``!AA``
     Manual: 2.
@@ -81,7 +81,7 @@ class Acknowledged(Response):
 
 @message.frozen
 class Refused(Response):
-    """Say that a command is well-formed but was not carried out: the invalid response of every command.
+    """The response that a well-formed command was not carried out: the invalid response of every command.
 
     Wire: ``?AA``
     Manual: 2; E16, E27.

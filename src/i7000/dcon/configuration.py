@@ -1,7 +1,7 @@
-"""What a module is set to: the whole of it, and the type of each channel (manual 2.1, 2.10, 2.15, 2.16).
+"""The configuration of a module: all its settings, and the type of each channel (manual 2.1, 2.10, 2.15, 2.16).
 
-Laws: a configuration is read, changed in one place and written back (`Configuration.command`), so that nothing is set
-that was not meant.
+Laws: to change one setting, read the configuration, change it and write it back (`Configuration.command`); the other
+settings stay as they are.
 """
 
 from typing import Any
@@ -27,14 +27,14 @@ __all__ = [
 
 @frozen
 class SetConfiguration(Command[Acknowledged]):
-    """Set the address, the type of all channels, the line and the reports of a module.
+    """A command to set the address, the type of all channels, the line settings and the report settings.
 
     Wire: ``%AANNTTCCFF`` -> ``!NN``
     Special: `type_code` is `MIXED` where the channels have different types; modules whose channels are set one by one
-        ignore it. The baud rate and the checksum can only be changed in INIT mode, or after `SoftInit` where there is
-        one; a refusal comes from the old address.
-    Time: the address, type, format and filter change at once, the line and the checksum at the next power-on, or right
-        after the response when allowed by `SoftInit`.
+        ignore it. The baud rate and the checksum can only be changed in INIT mode, or after `SoftInit` on models that
+        have it. A module refuses from its old address.
+    Time: the address, type, format and filter change at once. The baud rate and the checksum change at the next
+        power-on; after `SoftInit`, right after the response.
     Errors: `EncodeError` for what the model or its firmware does not have.
     Manual: 2.1, 1.11; E16, E17, E20, E81, E89, E101.
     """
@@ -50,11 +50,11 @@ class SetConfiguration(Command[Acknowledged]):
 
     @property
     def answering_address(self) -> int:
-        """The new address: the module answers with it (E16)."""
+        """The new address: the module answers from it (E16)."""
         return self.new_address
 
     def check(self, profile: Profile) -> None:
-        """Refuse what the model or its firmware does not have."""
+        """Raise `EncodeError` for what the model or its firmware does not have."""
         mixed = self.type_code == MIXED and profile.individually_configurable
         if profile.model.type_by_configuration and not mixed:
             profile.check_type_code(self.type_code, self.section)
@@ -64,7 +64,7 @@ class SetConfiguration(Command[Acknowledged]):
 
 @frozen
 class Configuration(Response):
-    """Tell the configuration of a module.
+    """The configuration of a module.
 
     Wire: ``!AATTCCFF``
     Special: `type_code` is `MIXED` where the channels have different types, and has no meaning for modules whose
@@ -82,7 +82,7 @@ class Configuration(Response):
     report_settings: parts.Report
 
     def command(self, **changes: Any) -> SetConfiguration:  # noqa: ANN401 - checked by the constructor
-        """Make the command that writes this configuration back, with `changes` to the fields of `SetConfiguration`.
+        """Return the command that writes this configuration back, with `changes` to the fields of `SetConfiguration`.
 
         >>> from i7000.settings import LineSettings, ReportSettings
         >>> configuration = Configuration(0x01, 0x05, LineSettings(), ReportSettings())
@@ -94,10 +94,10 @@ class Configuration(Response):
 
 
 class ReadConfiguration(Command[Configuration]):
-    """Ask for the configuration of a module.
+    """A command to read the configuration of a module.
 
     Wire: ``$AA2`` -> ``!AATTCCFF``
-    Special: in INIT mode a module is asked at address 00 and answers with its stored address (assumption).
+    Special: in INIT mode, address the module as 00; it answers with its stored address (assumption).
     Manual: 2.10; E4, E18.
     """
 
@@ -108,7 +108,7 @@ class ReadConfiguration(Command[Configuration]):
 
 @frozen
 class SetChannelTypeCode(Command[Acknowledged]):
-    """Set the type of one channel.
+    """A command to set the type of one channel.
 
     Wire: ``$AA7CiRrr`` -> ``!AA``
     Shape: the channel has one hex digit, in single-ended mode two.
@@ -126,14 +126,14 @@ class SetChannelTypeCode(Command[Acknowledged]):
     type_code: parts.ChannelTypeCode
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel or a type that the module does not have."""
+        """Raise `EncodeError` for a channel or a type that the module does not have."""
         profile.check_channel(self.channel, self.section)
         profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
 class ChannelTypeCode(Response):
-    """Tell the type of one channel.
+    """The type of one channel.
 
     Wire: ``!AACiRrr``
     Manual: 2.16; E22.
@@ -150,7 +150,7 @@ class ChannelTypeCode(Response):
 
 @frozen
 class ReadChannelTypeCode(Command[ChannelTypeCode]):
-    """Ask for the type of one channel.
+    """A command to read the type of one channel.
 
     Wire: ``$AA8Ci`` -> ``!AACiRrr``
     Shape: the channel has one hex digit, in single-ended mode two.
@@ -167,7 +167,7 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
     channel: parts.ChannelI
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         profile.check_channel(self.channel, self.section)
 
 

@@ -1,7 +1,7 @@
-"""The envelope of every DCON message: leading character, checksum, carriage return; streams (manual 2).
+"""The frame around every DCON message: leading character, checksum, carriage return; streams (manual 2).
 
-Laws: `seal` and `unseal` are each other's inverse. `split` never raises, never loses a byte, keeps less than one frame,
-and takes time in proportion to what it is given, whatever that is.
+Laws: `unseal` is the inverse of `seal`. `split` never raises and never loses a byte. It keeps less than one frame, and
+its time is proportional to the input.
 """
 
 from i7000.arguments import as_bytes, check_type
@@ -10,7 +10,7 @@ from i7000.errors import DecodeError, Fault, Noise
 __all__ = ["LONGEST_FRAME", "checksum", "seal", "split", "unseal"]
 
 LONGEST_FRAME = 256
-"""Bytes of a frame, carriage return included, beyond which it is noise. The longest of the manual has 144."""
+"""The maximum length of a frame in bytes, carriage return included; the longest in the manual has 144."""
 
 COMMAND_LEADS = b"%#$~@"
 RESPONSE_LEADS = b"!>?"
@@ -23,9 +23,9 @@ _CHECKSUMS = tuple(b"%02X" % value for value in range(256))
 
 
 def checksum(body: bytes) -> int:
-    """Sum up the characters before the checksum, modulo 256.
+    """Compute the checksum: the sum of the characters before it, modulo 256.
 
-    Special: the sum does not see characters change places: ``>+025.12`` and ``>+052.12`` have the same.
+    Special: swapped characters do not change the sum: ``>+025.12`` and ``>+052.12`` have the same.
     Manual: 2.
 
     >>> f"{checksum(b'$012'):02X}"
@@ -35,7 +35,7 @@ def checksum(body: bytes) -> int:
 
 
 def seal(body: bytes, *, checksum: bool) -> bytes:
-    r"""Make a frame of a body: the checksum, if it is enabled, and a carriage return.
+    r"""Make a frame from a body: append the checksum, if enabled, and a carriage return.
 
     >>> seal(b"$012", checksum=True)
     b'$012B7\r'
@@ -46,12 +46,12 @@ def seal(body: bytes, *, checksum: bool) -> bytes:
 
 
 def sealed(body: bytes, checksum: bool) -> bytes:  # noqa: FBT001 - positional for speed
-    """Make a frame of a body, as `seal` does, without a look at the arguments."""
+    """Make a frame from a body, as `seal` does, without checking the arguments."""
     return body + _CHECKSUMS[sum(body) & 0xFF] + b"\r" if checksum else body + b"\r"
 
 
 def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
-    r"""Take the body out of exactly one frame, the checksum verified and removed if it is enabled.
+    r"""Return the body of exactly one frame; verify and remove the checksum, if enabled.
 
     Errors: `DecodeError` with `Fault.LENGTH`, `TERMINATOR`, `CHARACTER`, `LEADING` (not one of `leads`) or `CHECKSUM`.
 
@@ -100,11 +100,11 @@ def _damage(frame: bytes, leads: bytes) -> DecodeError:
 
 
 def split(buffer: bytes, *, checksum: bool = False) -> tuple[tuple[bytes | Noise, ...], bytes]:
-    r"""Split what a line delivered into whole frames, noise and the rest that may still become a frame.
+    r"""Split received bytes into complete frames, noise, and the rest that may still become a frame.
 
     Shape: a frame runs from a leading character to the next carriage return, all printable and no second leading
-        character between, in at most `LONGEST_FRAME` bytes. The rest is shorter than that; call again with the rest
-        and what came next. Any chunking gives the same frames and the same bytes of noise between them.
+        character between, in at most `LONGEST_FRAME` bytes. The rest is shorter than that. Call again with the rest
+        followed by the next bytes. Any chunking gives the same frames and the same noise bytes between them.
     Special: with `checksum`, a frame whose checksum is wrong is noise.
     Manual: 2; E102.
 
@@ -142,14 +142,14 @@ def split(buffer: bytes, *, checksum: bool = False) -> tuple[tuple[bytes | Noise
 
 
 def _start(line: bytes) -> int:
-    """Where in a line without a carriage return the frame that may end it starts: at its end if there is none."""
+    """Return the start of a frame that may still be incomplete, in a line without a carriage return; else the end."""
     start = line.translate(_LEADS_AS_ONE).rfind(b"!")
     frame = line[start:]
     return len(line) if start < 0 or len(frame) >= LONGEST_FRAME or frame.translate(None, _PRINTABLE) else start
 
 
 def _noise(wire: bytes) -> Noise:
-    """Name what is wrong with the first of the bytes that are no frame."""
+    """Return the noise at the beginning, with its fault."""
     if wire[0] not in _LEADS:
         return Noise(wire, Fault.LEADING)
     damage = wire.translate(None, _PLAIN)[1:2]

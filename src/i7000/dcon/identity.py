@@ -1,4 +1,4 @@
-"""Who a module is, which protocol it speaks, and the soft INIT that unlocks its line settings.
+"""The identity of a module, its protocol, and the soft INIT that unlocks its line settings.
 
 Manual 2.23, 2.24, 2.25, 2.26, 2.32, 2.33, 2.34.
 """
@@ -26,15 +26,16 @@ __all__ = [
 ]
 
 LONGEST_TIMEOUT = 60
-"""Seconds of the soft INIT time-out (2.34)."""
+"""The longest soft INIT timeout, in seconds (2.34)."""
 
 
 @frozen
 class FirmwareVersion(Response):
-    """Tell the firmware version.
+    """The firmware version.
 
     Wire: ``!AA(Data)``
-    Shape: `version` as sent: a letter, a digit, a point, one or two digits, as ``A2.0``; `i7000.Firmware` orders them.
+    Shape: `version` as sent: a letter, a digit, a point, one or two digits, such as ``A2.0``; compare versions as
+        `i7000.Firmware`.
     Manual: 2.23; E67, E122.
     """
 
@@ -47,7 +48,7 @@ class FirmwareVersion(Response):
 
 
 class ReadFirmwareVersion(Command[FirmwareVersion]):
-    """Ask for the firmware version.
+    """A command to read the firmware version.
 
     Wire: ``$AAF`` -> ``!AA(Data)``
     Manual: 2.23.
@@ -60,11 +61,11 @@ class ReadFirmwareVersion(Command[FirmwareVersion]):
 
 @frozen
 class ModuleName(Response):
-    """Tell the name of the module.
+    """The name of the module.
 
     Wire: ``!AA(Name)``
     Shape: 1 to 6 characters, printable ASCII without the leading characters of messages, and not the text of another
-        answer, as ``0506`` or ``A2.0`` (assumption).
+        response, such as ``0506`` or ``A2.0`` (assumption).
     Manual: 2.24; E6, E102, E122.
     """
 
@@ -77,7 +78,7 @@ class ModuleName(Response):
 
 
 class ReadModuleName(Command[ModuleName]):
-    """Ask for the name of the module.
+    """A command to read the name of the module.
 
     Wire: ``$AAM`` -> ``!AA(Name)``
     Manual: 2.24; E6.
@@ -90,11 +91,11 @@ class ReadModuleName(Command[ModuleName]):
 
 @frozen
 class SetModuleName(Command[Acknowledged]):
-    """Set the name of the module.
+    """A command to set the name of the module.
 
     Wire: ``~AAO(Name)`` -> ``!AA``
     Shape: 1 to 6 characters, printable ASCII without the leading characters of messages (assumption).
-    Errors: `EncodeError` for a name that could not be read back: one that is the text of another answer (assumption).
+    Errors: `EncodeError` for a name that could not be read back: the text of another response (assumption).
     Manual: 2.33; E102, E122.
     """
 
@@ -105,13 +106,13 @@ class SetModuleName(Command[Acknowledged]):
     name: parts.NewName
 
     def check(self, profile: Profile) -> None:
-        """Refuse a name that is the text of another answer."""
+        """Raise `EncodeError` for a name that is the text of another response."""
         profile.check_name(self.name, self.section)
 
 
 @frozen
 class ProtocolSetting(Response):
-    """Tell which protocols there are, and which is spoken after the next power-on.
+    """The supported protocols, and the protocol after the next power-on.
 
     Wire: ``!AASC``
     Manual: 2.25; E92.
@@ -128,7 +129,7 @@ class ProtocolSetting(Response):
 
 
 class ReadProtocol(Command[ProtocolSetting]):
-    """Ask which protocols there are, and which is spoken after the next power-on.
+    """A command to read the supported protocols, and the protocol after the next power-on.
 
     Wire: ``$AAP`` -> ``!AASC``
     Models: M-7000 series.
@@ -143,7 +144,7 @@ class ReadProtocol(Command[ProtocolSetting]):
 
 @frozen
 class SetProtocol(Command[Acknowledged]):
-    """Set the protocol that is spoken after the next power-on; refused but in INIT mode.
+    """A command to set the protocol after the next power-on; modules refuse it outside INIT mode.
 
     Wire: ``$AAPN`` -> ``!AA``
     Models: M-7000 series.
@@ -159,10 +160,10 @@ class SetProtocol(Command[Acknowledged]):
 
 
 class SoftInit(Command[Acknowledged]):
-    """Allow the next command to change the baud rate and the checksum, until the time-out.
+    """A command to allow changes of the baud rate and the checksum by the next command, until the timeout.
 
     Wire: ``~AAI`` -> ``!AA``
-    Special: `SetSoftInitTimeout` must come first: the time-out is 0 after power-on.
+    Special: send `SetSoftInitTimeout` first: the timeout is 0 after power-on.
     Models: M-7017mC-16 and 7019 series.
     Manual: 2.32; E20, E32, E107.
     """
@@ -175,25 +176,25 @@ class SoftInit(Command[Acknowledged]):
 
 @frozen
 class SetSoftInitTimeout(Command[Acknowledged]):
-    """Set how long `SoftInit` lasts; 0 forbids changes by software.
+    """A command to set how long `SoftInit` lasts; 0 forbids changes by software.
 
     Wire: ``~AATnn`` -> ``!AA``
     Unit: seconds.
     Range: 0 to 60 (3Ch).
     Models: M-7017mC-16 and 7019 series.
-    Errors: `EncodeError` for a longer time-out.
+    Errors: `EncodeError` for a longer timeout.
     Manual: 2.34; E20, E32.
     """
 
     syntax = "~AATnn"
     section = "2.34"
-    title = "soft INIT time-out"
+    title = "soft INIT timeout"
     availability = Availability.SOFT_INIT
 
     timeout: parts.Seconds
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the limit is the same for all
-        """Refuse a longer time-out."""
+        """Raise `EncodeError` for a longer timeout."""
         if self.timeout > LONGEST_TIMEOUT:
             raise EncodeError("timeout", self.timeout, f"0..{LONGEST_TIMEOUT} s", self.section)
 

@@ -1,9 +1,9 @@
-"""The analog inputs: readings, which channels are on, how they are connected, what is wrong with them.
+"""The analog inputs: readings, channel mask, connecting mode and diagnostics.
 
 Manual 2.3, 2.4, 2.13, 2.14, 2.19, 2.22, 2.42, 2.43.
 
-Laws: a response keeps the field of each channel as it was sent, so that channel 5 is always index 5; what the fields
-mean is told by `i7000.dcon.readings`.
+Laws: a response keeps the field of each channel as it was sent, so channel 5 is always index 5. `i7000.dcon.readings`
+decodes the fields.
 """
 
 from attrs import field
@@ -38,7 +38,7 @@ __all__ = [
 
 
 def check_values(message: Message, values: tuple[str, ...], data_format: DataFormat, profile: Profile) -> None:
-    """Refuse fields that are not those of the module's channels."""
+    """Raise `EncodeError` for fields that are not those of the module's channels."""
     legacy = profile.legacy_sentinels
     if len(values) != profile.channels or not all(is_field(value, data_format, legacy=legacy) for value in values):
         allowed = f"{profile.channels} {data_format.name.lower()} fields: {profile.model.value}"
@@ -47,10 +47,11 @@ def check_values(message: Message, values: tuple[str, ...], data_format: DataFor
 
 @frozen
 class AnalogInputs(Response):
-    """Tell the readings of all channels.
+    """The readings of all channels.
 
     Wire: ``>(Data)``
-    Shape: one field a channel, 7 characters in engineering units and percent, 4 in hex; blanks for a disabled channel.
+    Shape: one field for each channel, 7 characters in engineering units and percent, 4 in hex; blanks for a disabled
+        channel.
     Manual: 2.3, 1.11; E24, E25, E49.
     """
 
@@ -61,12 +62,12 @@ class AnalogInputs(Response):
     values: parts.Values
 
     def check(self, profile: Profile) -> None:
-        """Refuse fields that are not those of the module's channels."""
+        """Raise `EncodeError` for fields that are not those of the module's channels."""
         check_values(self, self.values, profile.data_format, profile)
 
 
 class ReadAnalogInputs(Command[AnalogInputs]):
-    """Ask for the readings of all channels.
+    """A command to read the readings of all channels.
 
     Wire: ``#AA`` -> ``>(Data)``
     Manual: 2.3; E24.
@@ -79,7 +80,7 @@ class ReadAnalogInputs(Command[AnalogInputs]):
 
 @frozen
 class AnalogInput(Response):
-    """Tell the reading of one channel.
+    """The reading of one channel.
 
     Wire: ``>(Data)``
     Shape: 7 characters in engineering units and percent, 4 in hex; blanks for a disabled channel.
@@ -93,14 +94,14 @@ class AnalogInput(Response):
     value: parts.Value
 
     def check(self, profile: Profile) -> None:
-        """Refuse a field of another data format."""
+        """Raise `EncodeError` for a field of another data format."""
         if not is_field(self.value, profile.data_format, legacy=profile.legacy_sentinels):
             raise EncodeError("value", self.value, f"one {profile.data_format.name.lower()} field", self.section)
 
 
 @frozen
 class ReadAnalogInput(Command[AnalogInput]):
-    """Ask for the reading of one channel.
+    """A command to read the reading of one channel.
 
     Wire: ``#AAN`` -> ``>(Data)``
     Shape: the channel has one hex digit, in single-ended mode two.
@@ -115,16 +116,16 @@ class ReadAnalogInput(Command[AnalogInput]):
     channel: parts.ChannelN
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         profile.check_channel(self.channel, self.section)
 
 
 @frozen
 class AnalogInputsHex(Response):
-    """Tell the readings of all channels in hex, whatever the data format is set to.
+    """The readings of all channels in hex, whatever the data format of the module.
 
     Wire: ``>(Data)``
-    Shape: 4 hex digits a channel; blanks for a disabled channel are read too.
+    Shape: 4 hex digits for each channel; blanks for a disabled channel are accepted.
     Manual: 2.19; E8, E24, E25.
     """
 
@@ -135,12 +136,12 @@ class AnalogInputsHex(Response):
     values: parts.HexValues
 
     def check(self, profile: Profile) -> None:
-        """Refuse fields that are not those of the module's channels."""
+        """Raise `EncodeError` for fields that are not those of the module's channels."""
         check_values(self, self.values, DataFormat.HEX, profile)
 
 
 class ReadAnalogInputsHex(Command[AnalogInputsHex]):
-    """Ask for the readings of all channels in hex.
+    """A command to read the readings of all channels in hex.
 
     Wire: ``$AAA`` -> ``>(Data)``
     Models: 7017 series; the same characters are `ReadCjcUpdate` for the 7019 series.
@@ -155,10 +156,10 @@ class ReadAnalogInputsHex(Command[AnalogInputsHex]):
 
 @frozen
 class SetChannelMask(Command[Acknowledged]):
-    """Switch channels on and off.
+    """A command to switch channels on and off.
 
     Wire: ``$AA5VV`` -> ``!AA``
-    Shape: the mask has a bit a channel, in 2, 4 or 6 hex digits by model; see `mask_of`.
+    Shape: the mask has a bit for each channel, in 2, 4 or 6 hex digits by model; see `mask_of`.
     Errors: `EncodeError` for a channel that the module does not have.
     Manual: 2.13; E11, E12.
     """
@@ -170,16 +171,16 @@ class SetChannelMask(Command[Acknowledged]):
     mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
-        """Refuse channels that the module does not have."""
+        """Raise `EncodeError` for channels that the module does not have."""
         profile.check_mask(self.mask, self.section)
 
 
 @frozen
 class ChannelMask(Response):
-    """Tell which channels are on.
+    """The mask of the channels that are on.
 
     Wire: ``!AAVV``
-    Shape: a bit a channel, in 2, 4 or 6 hex digits by model; see `channels_of`.
+    Shape: a bit for each channel, in 2, 4 or 6 hex digits by model; see `channels_of`.
     Manual: 2.14; E11, E12.
     """
 
@@ -191,12 +192,12 @@ class ChannelMask(Response):
     mask: parts.Mask
 
     def check(self, profile: Profile) -> None:
-        """Refuse channels that the module does not have."""
+        """Raise `EncodeError` for channels that the module does not have."""
         profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Command[ChannelMask]):
-    """Ask which channels are on.
+    """A command to read which channels are on.
 
     Wire: ``$AA6`` -> ``!AAVV``
     Manual: 2.14.
@@ -209,10 +210,10 @@ class ReadChannelMask(Command[ChannelMask]):
 
 @frozen
 class Diagnostics(Response):
-    """Tell which channels are on and over range, under range or open.
+    """The mask of the channels that are on and over range, under range or open.
 
     Wire: ``!AANN``
-    Shape: a bit a channel, in 2 hex digits; in 4 on the M-7019Z (assumption). See `channels_of`.
+    Shape: a bit for each channel, in 2 hex digits; in 4 on the M-7019Z (assumption). See `channels_of`.
     Manual: 2.22; E13, E14.
     """
 
@@ -224,12 +225,12 @@ class Diagnostics(Response):
     mask: parts.DiagnosticMask
 
     def check(self, profile: Profile) -> None:
-        """Refuse channels that the module does not have."""
+        """Raise `EncodeError` for channels that the module does not have."""
         profile.check_mask(self.mask, self.section)
 
 
 class ReadDiagnostics(Command[Diagnostics]):
-    """Ask which channels are over range, under range or open.
+    """A command to read which channels are over range, under range or open.
 
     Wire: ``$AAB`` -> ``!AANN``
     Models: 7019 series.
@@ -244,7 +245,7 @@ class ReadDiagnostics(Command[Diagnostics]):
 
 @frozen
 class ConnectingMode(Response):
-    """Tell whether the inputs are single-ended.
+    """The connecting mode of the inputs: single-ended or differential.
 
     Wire: ``!AAN``
     Manual: 2.42.
@@ -259,7 +260,7 @@ class ConnectingMode(Response):
 
 
 class ReadConnectingMode(Command[ConnectingMode]):
-    """Ask whether the inputs are single-ended.
+    """A command to read whether the inputs are single-ended.
 
     Wire: ``@AAS`` -> ``!AAN``
     Models: 7017Z.
@@ -274,7 +275,7 @@ class ReadConnectingMode(Command[ConnectingMode]):
 
 @frozen
 class SetConnectingMode(Command[Acknowledged]):
-    """Make the inputs single-ended or differential.
+    """A command to make the inputs single-ended or differential.
 
     Wire: ``@AASN`` -> ``!AA``
     Models: 7017Z.

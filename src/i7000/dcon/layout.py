@@ -1,32 +1,32 @@
-"""One statement of a message's syntax -> its constructor, its encoder and its decoder.
+"""The compiler of DCON message classes: from a syntax to a constructor, an encoder and a decoder.
 
-A message class has the manual's notation in `syntax`, and its fields are annotated with the part of that notation they
-fill: ``syntax = "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: CjcOffset`` (``SNNNN``), in the order in
-which they stand. What is between the parts is literal. The first use of a class compiles its statement to straight-line
-code: slices, look-ups and one ``%``.
+A message class has the manual's notation in `syntax`. Each field is annotated with its part of that notation: ``syntax
+= "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: CjcOffset`` (``SNNNN``), in the order of the notation.
+Characters between the parts are literal. At its first use, a class is compiled to straight-line code: slices, look-ups
+and one ``%``.
 
-Laws: the constructor takes exactly the values that a part `accepts`.
+Laws: the constructor accepts exactly the values for which a part's `accepts` is true.
 
 >>> from i7000 import dcon
 >>> print(dcon.SetCjcOffset.layout.source)
 def construct(self, address, offset):
-    if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
-        refuse('address', address)
-    if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
-        refuse('offset', offset)
-    set_address(self, address)
-    set_offset(self, offset)
+if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
+    refuse('address', address)
+if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
+    refuse('offset', offset)
+set_address(self, address)
+set_offset(self, offset)
 <BLANKLINE>
 def encode(m, p):
-    return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
+return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
 <BLANKLINE>
 def decode(t, p):
-    if len(t) != 9 or t[0] != '$' or t[3] != '9':
-        raise KeyError
-    m = new(message)
-    set_address(m, parse_address(t[1:3]))
-    set_offset(m, parse_offset(t[4:9]))
-    return m
+if len(t) != 9 or t[0] != '$' or t[3] != '9':
+    raise KeyError
+m = new(message)
+set_address(m, parse_address(t[1:3]))
+set_offset(m, parse_offset(t[4:9]))
+return m
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -49,19 +49,21 @@ class Layout:
 
     syntax: str
     pieces: tuple[tuple[str, str | Part], ...]
-    """In wire order: ``("", literal)`` or ``(field name, part)``."""
+    """The pieces in wire order: ``("", literal)`` or ``(field name, part)``."""
     source: str
-    """Of the three functions."""
+    """The source code of the three functions."""
     construct: Callable[..., None]
-    """The constructor: it refuses values that no message of this class can have."""
+    """The constructor; it raises `EncodeError` for values that no message of this class can have."""
     encode: Callable[[Any, Profile], bytes]
-    """Message and profile -> body."""
+    """Encodes a message to a body, for a profile."""
     decode: Callable[[str, Profile], Any]
-    """Body and profile -> message; `KeyError` or `DecodeError` where it does not fit, `explain` then tells why."""
+    """Decodes a body to a message, for a profile; `KeyError` or `DecodeError` on a mismatch, then `explain` finds the
+    reason.
+    """
     leads: bytes
-    """The leading character; and that of a refusal, which stands in the place of every response."""
+    """The leading character; for responses also the leading character of a refusal."""
     addressed: bool
-    """Whether the message carries an address."""
+    """Whether the message contains an address."""
 
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
@@ -80,7 +82,7 @@ class Layout:
         return cls(message.syntax, pieces, source, *functions, leads, addressed)
 
     def check_digits(self, message: Any, profile: Profile) -> None:  # noqa: ANN401
-        """Refuse numbers that have more digits than the module reads."""
+        """Raise `EncodeError` for numbers with more digits than the module reads."""
         for name, part in self.pieces:
             if isinstance(part, Part) and isinstance(part.width, str) and part.width != "rest":
                 digits: int = getattr(profile, part.width)
@@ -89,14 +91,14 @@ class Layout:
                     raise EncodeError(name, getattr(message, name), allowed, message.section)
 
     def longest(self, profile: Profile) -> int:
-        """Tell the most characters that a body can have."""
+        """Return the length in characters of the longest body."""
         return sum(
             piece.longest(profile) if isinstance(piece, Part) and piece.longest else _width(piece, profile) or 0
             for _, piece in self.pieces
         )
 
     def explain(self, body: str, profile: Profile, frame: bytes, section: str) -> DecodeError:
-        """Tell why `decode` could not read `body`: its length, or the first thing from the left that does not fit."""
+        """Return the reason why `decode` fails on `body`: its length, or the first mismatch from the left."""
         widths = [_width(piece, profile) for _, piece in self.pieces]
         shortest, longest = sum(1 if width is None else width for width in widths), self.longest(profile)
         if not shortest <= len(body) <= longest:
@@ -120,7 +122,7 @@ class Layout:
 
 
 def _width(piece: str | Part, profile: Profile) -> int | None:
-    """Characters of a piece; None: all that are left, however many."""
+    """Return the width of a piece in characters; None for a piece that takes all remaining characters."""
     if isinstance(piece, str):
         return len(piece)
     if piece.width is None:
@@ -146,7 +148,7 @@ def _part_fault(part: Part, text: str, profile: Profile) -> DecodeError | None:
 
 
 def _fields(message: Any) -> Iterator[tuple[str, Part]]:  # noqa: ANN401
-    """Read the annotations of a class and its bases; attrs has not made the class yet, perhaps, and takes long to."""
+    """Yield the annotated fields of a class and its bases; attrs may not have processed the class yet."""
     for base in reversed(message.__mro__):
         for name, annotation in vars(base).get("__annotations__", {}).items():
             if get_origin(annotation) is Annotated:
@@ -154,7 +156,7 @@ def _fields(message: Any) -> Iterator[tuple[str, Part]]:  # noqa: ANN401
 
 
 def pieces_of(message: Any) -> Iterator[tuple[str, str | Part]]:  # noqa: ANN401
-    """Find the notation of each field in the syntax, from the left, and the literals between."""
+    """Yield the literals and the fields of a syntax, from the left."""
     rest: str = message.syntax
     for name, part in _fields(message):
         literal, found, rest = rest.partition(part.notation)

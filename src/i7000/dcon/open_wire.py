@@ -1,6 +1,6 @@
 """Detection of open thermocouple wires (manual 2.40, 2.41).
 
-Laws: the second letter of ``~AAEO`` is the letter O, where ``~AAE0`` with the digit 0 forbids calibration (E10).
+Laws: ``~AAEO`` ends in the letter O; ``~AAE0``, with the digit 0, forbids calibration (E10).
 """
 
 from attrs import field
@@ -15,7 +15,7 @@ __all__ = ["OpenWireDetection", "ReadOpenWireDetection", "SetOpenWireDetection"]
 
 @frozen
 class OpenWireDetection(Response):
-    """Tell whether open wires are looked for.
+    """The state of open wire detection: on or off.
 
     Wire: ``!AAN``
     Manual: 2.40; E1, E68.
@@ -30,7 +30,7 @@ class OpenWireDetection(Response):
 
 
 class ReadOpenWireDetection(Command[OpenWireDetection]):
-    """Ask whether open wires are looked for.
+    """A command to read whether open wire detection is on.
 
     Wire: ``~AAEO`` -> ``!AAN``
     Models: 7018R from firmware B4.2, 7019 series from B3.7.
@@ -45,7 +45,7 @@ class ReadOpenWireDetection(Command[OpenWireDetection]):
 
 @frozen
 class SetOpenWireDetection(Command[Acknowledged]):
-    """Switch the detection of open wires on or off.
+    """A command to switch open wire detection on or off.
 
     Wire: ``~AAEON`` -> ``!AA``
     Models: 7018R from firmware B4.2, 7019 series from B3.7.

@@ -1,6 +1,6 @@
-"""The parts of the syntax of DCON messages: what stands for a field in the manual's notation, and what it can be.
+"""The parts of the syntax of DCON messages: the notation of each field, and its values.
 
-Laws: what a part writes, it reads back as it was.
+Laws: a part reads back every value that it writes.
 """
 
 from collections.abc import Callable
@@ -18,45 +18,47 @@ DIGITS = "0123456789ABCDEF"
 
 
 class Part(NamedTuple):
-    """One field's place in a syntax."""
+    """One field of a syntax: its notation, its values, and how it is written and read."""
 
     notation: str
-    """What stands for it in the syntax."""
+    """The notation in the syntax."""
     allowed: str
-    """Its values, for messages."""
+    """The allowed values, for messages."""
     format: str
-    """How ``%`` writes it."""
+    """The ``%`` format that writes it."""
     arguments: str
-    """What ``%`` is given: an expression of the field, ``{}``, and the profile, ``p``."""
+    """The arguments of ``%``: an expression of the field, ``{}``, and the profile, ``p``."""
     accepts: Callable[[Any], bool]
-    """Whether the field can have this value."""
+    """Returns whether the field can have this value."""
     parse: Callable[..., Any]
-    """Read it from its characters; `KeyError` where they are none of the expected."""
+    """Parses the characters of the field; raises `KeyError` for unexpected ones."""
     fault: Fault = Fault.CHARACTER
-    """What a `KeyError` of `parse` means."""
+    """The fault that a `KeyError` of `parse` means."""
     width: int | str | None = None
-    """Characters: a number, an attribute of the profile, or ``rest``: all that are left; None: as the notation."""
+    """Its width in characters: a number, an attribute of the profile, or ``rest`` (all remaining); None: as the
+    notation.
+    """
     contextual: bool = False
-    """Whether `parse` takes the profile after the text."""
+    """Whether `parse` takes the profile as its second argument."""
     longest: Callable[[Profile], int] | None = None
-    """The most characters of a part that takes all that are left."""
+    """Returns the maximum width of a part that takes all remaining characters."""
     characters: str = DIGITS
-    """What its characters can be, where a wrong one is a fault of its own."""
+    """The allowed characters; for another one `explain` reports `Fault.CHARACTER`."""
     signed: bool = False
-    """Whether a sign stands before its `characters`; `parse` judges the sign itself."""
+    """Whether a sign precedes the `characters`; `parse` checks the sign."""
     bounds: tuple[int, int] | None = None
-    """The range of a plain number, whatever the module has."""
+    """The range of a plain number, for all models."""
     values: Any = None
-    """The type of its values where they are more than numbers or text: an enumeration, bool or settings."""
+    """The type of the values, if they are not plain numbers or text: an enumeration, bool or settings."""
     unit: str | None = None
     """The unit of a quantity."""
     scale: float = 1
-    """What one count is in the unit."""
+    """The value of one count in the unit."""
     describe: Callable[[Any], str] = describe.value
-    """The value in words, with its unit."""
+    """Returns the value in words, with its unit."""
 
     def __repr__(self) -> str:
-        """What `help` shows beside a field: the notation and the values."""
+        """Return what `help` shows beside a field: the notation and the values."""
         return f"<{self.notation}: {self.allowed}>"
 
 
@@ -65,14 +67,14 @@ _TYPE_CODES = {text: TypeCode.of(byte) for text, byte in _PAIRS.items()}
 
 
 def _parse_hex(text: str) -> int:
-    """Read upper-case digits only, where `int` would take more."""
+    """Parse upper-case hex digits; raise `KeyError` for other text that `int` would accept."""
     if text.strip(DIGITS):
         raise KeyError(text)
     return int(text, 16)
 
 
 def _number(notation: str, allowed: str, low: int, high: int, **more: Any) -> Part:  # noqa: ANN401 - fields of `Part`
-    """A number between limits, in hex digits."""
+    """Return a part for a number within limits, in hex digits."""
     form: dict[str, Any] = {"format": f"%0{len(notation)}X", "arguments": "{}", "parse": _parse_hex} | more
     return Part(
         notation, allowed, accepts=lambda value: is_int(value, low, high), bounds=(low, high), **form,
@@ -80,22 +82,22 @@ def _number(notation: str, allowed: str, low: int, high: int, **more: Any) -> Pa
 
 
 def byte(notation: str, words: Callable[[int], str] = describe.hex_byte) -> Part:
-    """Two hex digits, described with `words`."""
+    """Return a part for two hex digits, described with `words`."""
     return _number(notation, "00..FF", 0, 0xFF, parse=_PAIRS.__getitem__, describe=words)
 
 
 def _quantity(part: Part, unit: str, scale: float, form: str) -> Part:
-    """A number that counts `scale` of a unit, described as a number of the format `form`."""
+    """Return a part for a number that counts `scale` of a unit, described in the format `form`."""
     return part._replace(unit=unit, scale=scale, describe=describe.quantity(unit, scale, form))
 
 
 def _type_code(notation: str) -> Part:
-    """Two hex digits: a type code, or an undefined number."""
+    """Return a part for a type code in two hex digits, or an undefined number."""
     return byte(notation, describe.type_code)._replace(parse=_TYPE_CODES.__getitem__, values=TypeCode)
 
 
 def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings], words: Callable[[Any], str]) -> Part:
-    """Two hex digits that are a byte of settings."""
+    """Return a part for a byte of settings in two hex digits."""
     return Part(
         notation, f"{kind.__name__}", "%02X", "{}.byte",
         lambda value: isinstance(value, kind), lambda text: kind.from_byte(_PAIRS[text]), values=kind, describe=words,
@@ -103,7 +105,7 @@ def _settings(notation: str, kind: type[LineSettings] | type[ReportSettings], wo
 
 
 def _choice(notation: str, kind: type[bool | CjcUpdate | Protocol]) -> Part:
-    """One digit, of the few that have a meaning."""
+    """Return a part for one digit out of a few defined ones."""
     values = {f"{value:d}": value for value in (kind if issubclass(kind, CjcUpdate | Protocol) else (False, True))}
     allowed = " ".join(f"{digit} ({value!s})" if kind is bool else digit for digit, value in values.items())
     return Part(
@@ -113,7 +115,7 @@ def _choice(notation: str, kind: type[bool | CjcUpdate | Protocol]) -> Part:
 
 
 def _channel(notation: str) -> Part:
-    """A channel number: one digit, or two in single-ended mode (E21, E22)."""
+    """Return a part for a channel number: one digit, or two in single-ended mode (E21, E22)."""
     return _number(
         notation, "0..F, or 00..FF in single-ended mode", 0, 0xFF,
         format="%0*X", arguments="p.channel_digits, {}", width="channel_digits",
@@ -121,12 +123,12 @@ def _channel(notation: str) -> Part:
 
 
 def _digit(notation: str) -> Part:
-    """A channel number in one hex digit, whatever the connecting mode."""
+    """Return a part for a channel number in one hex digit, in every connecting mode."""
     return _number(notation, "0..F", 0, 0xF)
 
 
 def _mask(notation: str) -> Part:
-    """A bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
+    """Return a part for a bit for each channel, channel 0 the lowest: 2, 4 or 6 digits (2.13; E11, E12, E13)."""
     return _number(
         notation, "2, 4 or 6 hex digits", 0, 0xFFFFFF,
         format="%0*X", arguments="p.mask_digits, {}", width="mask_digits", describe=describe.mask,
@@ -134,7 +136,7 @@ def _mask(notation: str) -> Part:
 
 
 def _offset(notation: str) -> Part:
-    """A sign and the magnitude in four hex digits; -0 is read as 0 (2.18; E85)."""
+    """Return a part for a sign and the magnitude in four hex digits; -0 is read as 0 (2.18; E85)."""
 
     def parse(text: str) -> int:
         if text[0] not in "+-":
@@ -149,7 +151,7 @@ def _offset(notation: str) -> Part:
 
 
 def _temperature(notation: str) -> Part:
-    """A sign, four digits, a point and one digit (2.11)."""
+    """Return a part for a sign, four digits, a point and one digit (2.11)."""
 
     def parse(text: str) -> float:
         if text[:1] not in ("+", "-") or text[5:6] != "." or (text[1:5] + text[6:]).strip("0123456789"):
@@ -167,7 +169,7 @@ def _temperature(notation: str) -> Part:
 def _text(
     notation: str, lengths: tuple[int, int], allowed: str, is_valid: Callable[[str], bool] = lambda _: True
 ) -> Part:
-    """Characters to the end: those of names, in a form of their own (E102, E122)."""
+    """Return a part for text to the end of the body: names and versions (E102, E122)."""
     shortest, longest = lengths
 
     def accepts(value: Any) -> bool:  # noqa: ANN401
@@ -200,7 +202,7 @@ def _longest_field(data_format: DataFormat, profile: Profile) -> int:
 
 
 def _values(notation: str, data_format: DataFormat | None = None) -> Part:
-    """The fields of all channels: in the data format of the profile, or in one that is given."""
+    """Return a part for the fields of all channels, in `data_format` or else in the data format of the profile."""
 
     def form(profile: Profile) -> DataFormat:
         return profile.data_format if data_format is None else data_format
@@ -220,7 +222,7 @@ def _values(notation: str, data_format: DataFormat | None = None) -> Part:
 
 
 def _value(notation: str) -> Part:
-    """The field of one channel, in the data format of the profile."""
+    """Return a part for the field of one channel, in the data format of the profile."""
 
     def parse(text: str, profile: Profile) -> str:
         return split_fields(text, 1, profile.data_format, legacy=profile.legacy_sentinels)[0]

@@ -1,7 +1,7 @@
-"""Reports <-> readings, for a profile: what the fields of a response mean, and how they are written.
+"""Functions that convert the fields of reports to readings and back, for a profile.
 
-Laws: a field is read with the type of its channel, in the data format of the module; `fields` and `field` write what
-`readings` and `reading` read.
+Laws: a field is decoded with the type of its channel, in the data format of the module. `fields` and `field` are the
+inverse of `readings` and `reading`.
 """
 
 from collections.abc import Iterable
@@ -18,20 +18,20 @@ from i7000.type_codes import TypeCode
 __all__ = ["field", "fields", "reading", "readings"]
 
 _REPORTS = (AnalogInputs, AnalogInputsHex, SynchronizedData)
-"""The responses that have a field a channel."""
+"""The responses with a field for each channel."""
 _IN_DATA_FORMAT = (AnalogInputs, SynchronizedData)
-"""Those whose fields are in the data format of the profile."""
+"""The responses whose fields are in the data format of the profile."""
 
 
 def readings(
     response: AnalogInputs | AnalogInputsHex | SynchronizedData, profile: Profile, *, lenient: bool = False
 ) -> tuple[Reading, ...]:
-    """Return what the fields of a report mean, channel 0 first.
+    """Return the readings of a report, channel 0 first.
 
-    Special: with `lenient`, numbers that no module of the type writes are read too: for modules that differ from the
-        manual.
-    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, types
-        that are not known, or a number whose decimals or size are not those of its type.
+    Special: with `lenient`, numbers that no module of the type sends are accepted too; use it for modules that differ
+        from the manual.
+    Errors: `DecodeError` with `Fault.NUMBER` if the profile does not fit: other channels, another data format, unknown
+        types, or a number with the wrong decimals or size for its type.
     Manual: 1.11, A.5; E121.
 
     >>> from i7000 import Model, TypeCode
@@ -54,7 +54,7 @@ def readings(
 
 
 def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: bool = False) -> Reading:
-    """Return what the field of one channel means.
+    """Return the reading of one channel.
 
     Special: `lenient` as for `readings`.
     Errors: `DecodeError` as for `readings`.
@@ -69,7 +69,7 @@ def reading(response: AnalogInput, channel: int, profile: Profile, *, lenient: b
 
 
 def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
-    """Write the fields of a report: what `readings` tells, the other way round.
+    """Encode the fields of a report: the inverse of `readings`.
 
     Errors: `EncodeError` for a reading that its channel cannot have.
     Manual: 1.11, A.5; E50, E51.
@@ -91,9 +91,9 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
 
 
 def field(value: Reading, channel: int, profile: Profile) -> str:
-    """Write the field of one channel: what `reading` tells, the other way round.
+    """Encode the field of one channel: the inverse of `reading`.
 
-    Errors: `EncodeError` for a reading that the channel cannot have, and for a channel whose type is not known.
+    Errors: `EncodeError` for a reading that the channel cannot have, and for a channel of unknown type.
     Manual: 1.11, A.5.
     """
     check_type("value", value, Reading)
@@ -104,7 +104,7 @@ def field(value: Reading, channel: int, profile: Profile) -> str:
 
 
 def _types_of(channel: int, profile: Profile) -> tuple[TypeCode, ...]:
-    """The type of one channel; none if the profile does not have it."""
+    """Return the type of one channel as a tuple; empty if the profile does not have the channel."""
     check_type("profile", profile, Profile)
     check_int("channel", channel)
     return profile.type_codes[channel : channel + 1] if channel >= 0 else ()

@@ -1,4 +1,4 @@
-"""Synchronized sampling: all modules sample at one broadcast, each is asked later (manual 2.2, 2.12).
+"""Synchronized sampling: one broadcast makes all modules sample; each is read later (manual 2.2, 2.12).
 
 Models: 7019 series.
 """
@@ -17,7 +17,7 @@ __all__ = ["ReadSynchronizedData", "SynchronizedData", "SynchronizedSampling"]
 
 @frozen
 class SynchronizedSampling(Broadcast):
-    """Tell all modules to sample their inputs now and to keep the readings.
+    """A broadcast that makes all modules sample their inputs now and keep the readings.
 
     Wire: ``#**``, no response
     Time: 2 ms before the next command.
@@ -33,7 +33,7 @@ class SynchronizedSampling(Broadcast):
 
 @frozen
 class SynchronizedData(Response):
-    """Tell the readings kept at the last `SynchronizedSampling`.
+    """The readings kept at the last `SynchronizedSampling`.
 
     Wire: ``>AAS(Data)``
     Shape: `values` as in `AnalogInputs`.
@@ -46,16 +46,16 @@ class SynchronizedData(Response):
 
     address: parts.Address
     first_reading: parts.FlagS = field(kw_only=True)
-    """Whether they are told for the first time."""
+    """Whether the readings are sent for the first time."""
     values: parts.Values
 
     def check(self, profile: Profile) -> None:
-        """Refuse fields that are not those of the module's channels."""
+        """Raise `EncodeError` for fields that are not those of the module's channels."""
         check_values(self, self.values, profile.data_format, profile)
 
 
 class ReadSynchronizedData(Command[SynchronizedData]):
-    """Ask for the readings kept at the last `SynchronizedSampling`; refused if there was none.
+    """A command to read the readings kept at the last `SynchronizedSampling`; refused if there was none.
 
     Wire: ``$AA4`` -> ``>AAS(Data)``
     Models: 7019 series.

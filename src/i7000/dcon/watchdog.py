@@ -21,7 +21,7 @@ __all__ = [
 
 @frozen
 class HostOk(Broadcast):
-    """Tell all modules that the host is alive.
+    """A broadcast that tells all modules that the host is alive.
 
     Wire: ``~**``, no response
     Time: 2 ms before the next command.
@@ -41,7 +41,7 @@ def _status(status: int) -> str:
 
 @frozen
 class HostWatchdogStatus(Response):
-    """Tell whether the watchdog is on, and whether it has timed out.
+    """The host watchdog status: on or off, and timed out or not.
 
     Wire: ``!AASS``
     Shape: bit 7 of `status` is `enabled`, bit 2 `timed_out`; the others are kept as sent.
@@ -67,7 +67,7 @@ class HostWatchdogStatus(Response):
 
 
 class ReadHostWatchdogStatus(Command[HostWatchdogStatus]):
-    """Ask whether the watchdog is on, and whether it has timed out.
+    """A command to read whether the host watchdog is on, and whether it has timed out.
 
     Wire: ``~AA0`` -> ``!AASS``
     Manual: 2.36; E30, E31.
@@ -79,7 +79,7 @@ class ReadHostWatchdogStatus(Command[HostWatchdogStatus]):
 
 
 class ResetHostWatchdogStatus(Command[Acknowledged]):
-    """Forget that the watchdog has timed out.
+    """A command to reset the host watchdog status: the module forgets the timeout.
 
     Wire: ``~AA1`` -> ``!AA``
     Manual: 2.37; E30.
@@ -92,7 +92,7 @@ class ResetHostWatchdogStatus(Command[Acknowledged]):
 
 @frozen
 class HostWatchdogTimeout(Response):
-    """Tell whether the watchdog is on, and its time-out.
+    """The host watchdog settings: on or off, and the timeout.
 
     Wire: ``!AAEVV``
     Unit: `timeout` in tenths of a second.
@@ -101,7 +101,7 @@ class HostWatchdogTimeout(Response):
 
     syntax = "!AAEVV"
     section = "2.38"
-    title = "host watchdog time-out"
+    title = "host watchdog timeout"
 
     address: parts.Address
     enabled: parts.FlagE = field(kw_only=True)
@@ -109,7 +109,7 @@ class HostWatchdogTimeout(Response):
 
 
 class ReadHostWatchdogTimeout(Command[HostWatchdogTimeout]):
-    """Ask whether the watchdog is on, and its time-out.
+    """A command to read whether the host watchdog is on, and its timeout.
 
     Wire: ``~AA2`` -> ``!AAEVV``
     Manual: 2.38; E5.
@@ -117,21 +117,21 @@ class ReadHostWatchdogTimeout(Command[HostWatchdogTimeout]):
 
     syntax = "~AA2"
     section = "2.38"
-    title = "host watchdog time-out"
+    title = "host watchdog timeout"
 
 
 @frozen
 class SetHostWatchdogTimeout(Command[Acknowledged]):
-    """Switch the watchdog on or off, and set its time-out.
+    """A command to switch the host watchdog on or off and to set its timeout.
 
     Wire: ``~AA3EVV`` -> ``!AA``
-    Unit: `timeout` in tenths of a second; what 0 does while the watchdog is on is not documented.
+    Unit: `timeout` in tenths of a second; 0 with the watchdog on is not documented.
     Manual: 2.39; E5, E100.
     """
 
     syntax = "~AA3EVV"
     section = "2.39"
-    title = "host watchdog time-out"
+    title = "host watchdog timeout"
 
     enabled: parts.FlagE = field(kw_only=True)
     timeout: parts.Tenths

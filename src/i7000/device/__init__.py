@@ -1,12 +1,11 @@
-"""The executable model of a module, pure: a state, a frame, signals and the time give the next state and an answer.
+"""The executable model of a module, pure: a state, a frame, signals and the time give the next state and a response.
 
-`factory` and `power_on` make a module, `step` lets it hear a frame, `advance` lets time pass; a `Bus` is several, which
-hear what hosts send in whatever pieces. A power cycle is ``power_on(state.eeprom, now=now)``. Where the manual is
-silent the docstrings say what is assumed, with the id of ``spec/errata.json`` where there is one.
-Parts: `state` is what a module remembers, `signals` what is on its inputs, `measurement` what it makes of them,
-`logger` its data logger and clock; `module` says whom a frame is for, `dcon` and `modbus` are the two doors,
-`registers` the address map behind the second, `call` what comes in, `changes` what both do; `bus` and `uart` are the
-line.
+`factory` and `power_on` make a module. `step` gives it a frame; `advance` moves its time on. A `Bus` has several
+modules, which receive what hosts send, in any pieces. A power cycle is ``power_on(state.eeprom, now=now)``. Docstrings
+mark every assumption that fills a gap of the manual, with its id in ``spec/errata.json``.
+Parts: `state` is the memory of a module, `signals` its inputs, `measurement` its readings, `logger` its data logger and
+clock. `module` passes frames to the protocols `dcon` and `modbus`; `registers` is the address map of Modbus. `call` has
+the arguments of both protocols, `changes` their common actions. `bus` and `uart` are the line.
 """
 
 from i7000.device.bus import Bus, Ear, Heard

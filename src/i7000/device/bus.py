@@ -1,7 +1,8 @@
-"""Several modules on one pair of wires, of whatever models and protocols; what hosts send, in whatever pieces.
+"""Several modules on one pair of wires, of any models and protocols; hosts can send in any pieces.
 
-Laws: a frame is heard once it is whole, by every module whose protocol and line settings it is in; any chunking of what
-a host sends gives the same frames in the same order, where modules are set to its line: others hear a pause as such.
+Laws: every module with the protocol and the line settings of a frame hears it once it is complete. If modules have the
+line settings of the host, any chunking gives the same frames in the same order; other modules hear a pause between
+chunks.
 """
 
 from collections.abc import Sequence
@@ -26,7 +27,7 @@ __all__ = ["Bus", "Ear", "Heard"]
 
 
 class Reception(NamedTuple):
-    """How some modules of a bus listen: their protocol, and their line settings if these are not the host's."""
+    """How some modules of a bus receive: their protocol, and their line settings if they differ from the host's."""
 
     protocol: Protocol
     uart: Uart | None
@@ -34,16 +35,16 @@ class Reception(NamedTuple):
 
 @frozen
 class Ear:
-    """What one host has sent and may still become a frame.
+    """The receive state of one host: the sent bytes that may still become a frame.
 
-    Shape: `uart` is how the host sends and hears; None: as each module does, which a network or a pseudo-terminal
-        cannot tell.
+    Shape: `uart` has the line settings of the host; None means those of each module, for networks and pseudo-terminals,
+        which have no line settings.
     """
 
     uart: Uart | None = None
     rests: tuple[tuple[Reception, bytes], ...] = field(default=(), kw_only=True)
     told: bool = field(default=False, kw_only=True)
-    """Whether something of DCON has been told since the line was silent: to others that is noise."""
+    """Whether a DCON frame was reported since the line was silent: modules of the other protocol hear it as noise."""
 
     def __attrs_post_init__(self) -> None:
         if self.uart is not None and not isinstance(self.uart, Uart):
@@ -55,11 +56,11 @@ class Ear:
 
     @property
     def waiting(self) -> bool:
-        """Whether there is something of which only silence can tell that it is whole."""
+        """Whether there are bytes that only silence can complete."""
         return any(reception.protocol is Protocol.MODBUS_RTU for reception, _ in self.rests)
 
     def ends_with(self, frame: bytes | Noise) -> bool:
-        """Whether all that waits for silence ends with a frame, so that nothing came after it."""
+        """Return whether all bytes that wait for silence end with a frame, so that nothing came after it."""
         if isinstance(frame, Noise):
             return False
         end = as_bytes("frame", frame)
@@ -72,17 +73,17 @@ def _is_rest(rest: object) -> bool:
 
 @frozen
 class Heard:
-    """A frame that modules heard, and what came of it; or bytes that are no frame to any of them."""
+    """A frame that modules heard, with its effect; or bytes that are not a frame to any module."""
 
     frame: bytes | Noise
     protocol: Protocol
     module: int | None = None
-    """The place on the bus of the one it is for; None: it is for all, or for none that is there."""
+    """The place on the bus of the addressed module; None for a broadcast, or for an address that no module has."""
     profile: Profile | None = None
-    """That of the module, as it was before."""
+    """The profile of the module before the frame."""
     answer: bytes | None = None
     delay: float = 0.0
-    """Seconds that the module waits before it answers (40488)."""
+    """The seconds that the module waits before its response (40488)."""
 
 
 @frozen
@@ -91,7 +92,7 @@ class Bus:
 
     modules: tuple[State, ...]
     clock: float = field(default=-LARGEST_FLOAT, kw_only=True, eq=False, repr=False)
-    """When it last heard something, which makes no difference to what it is."""
+    """The time of the last call; it is not part of equality."""
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.modules, tuple) or not {State}.issuperset(map(type, self.modules)):
@@ -99,13 +100,13 @@ class Bus:
         check_seconds("clock", self.clock)
 
     def step(self, frame: bytes, signals: Sequence[Signals], now: float) -> tuple["Bus", bytes | None]:
-        r"""Let all modules hear a frame: the bus after it, and what comes back or None for silence.
+        r"""Give a frame to all modules; return the bus after it, and the response or None for silence.
 
-        Shape: `signals` are those of each module, in their order.
-        Errors: `InvalidValueError` for signals of more or fewer modules, and for a time that is not finite;
-            `StateError` for a time before the last, as in `hear` and `silence`.
-        Special: if several answer at once, each bit is 1 where all send 1 (E112, assumption): equal answers look like
-            one.
+        Shape: `signals` has the signals of each module, in the order of the modules.
+        Errors: `InvalidValueError` for the wrong number of signals, and for a time that is not finite; `StateError` for
+            a time before the last, as in `hear` and `silence`.
+        Special: if several modules answer at once, each bit is 1 where all send 1 (E112, assumption): equal responses
+            look like one.
 
         >>> from i7000 import Model
         >>> from i7000.device import factory, power_on
@@ -135,9 +136,9 @@ class Bus:
     def hear(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
     ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        r"""Let all modules hear what a host sends, a whole frame or any piece of one, or several.
+        r"""Give all modules the bytes that a host sends: a complete frame, a piece of one, or several.
 
-        Special: what sounds to some modules like noise, while others hear a frame, is told as the frame only.
+        Special: bytes that are noise to some modules and a frame to others are reported only as the frame.
 
         >>> from i7000 import Model
         >>> from i7000.device import factory, power_on
@@ -165,14 +166,14 @@ class Bus:
     def _hear_in_turn(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
     ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        """Hear one half after the other, so that frames of several protocols are told in the order of their ends."""
+        """Process one half after the other, so that the frames of several protocols are in the order of their ends."""
         half = len(data) // 2
         bus, ear, first = self.hear(ear, data[:half], signals, now)
         bus, ear, second = bus.hear(ear, data[half:], signals, now)
         return bus, ear, _without_foreign_noise(first + second)
 
     def silence(self, ear: Ear, signals: Sequence[Signals], now: float) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        """Let all modules hear that a host sends nothing for 3.5 characters, which ends a frame of Modbus RTU.
+        """Let all modules hear a silence of 3.5 characters, which ends a frame of Modbus RTU.
 
         Manual: 3.
         """
@@ -231,13 +232,13 @@ def _reception_at(protocol: Protocol, line: LineSettings, uart: Uart) -> Recepti
 
 
 def _is_mixed(found: list[tuple[Reception, bytes | Noise]]) -> bool:
-    """Whether there are frames of several protocols, all of them as they were sent."""
+    """Return whether there are frames of several protocols, all unchanged by line settings."""
     receptions = {reception for reception, part in found if not isinstance(part, Noise)}
     return len(receptions) > 1 and all(reception.uart is None for reception in receptions)
 
 
 def _without_foreign_noise(told: Sequence[Heard]) -> tuple[Heard, ...]:
-    """Leave out what is noise to some modules where others heard a frame."""
+    """Remove noise of some modules where others heard a frame."""
     spoken = {heard.protocol for heard in told if not isinstance(heard.frame, Noise)}
     return tuple([heard for heard in told if not spoken or heard.protocol in spoken])
 

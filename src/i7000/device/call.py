@@ -1,4 +1,4 @@
-"""What a module was asked, with all that its answer can depend on: the same for both protocols."""
+"""The arguments of a command or request, with all that its response can depend on; the same for both protocols."""
 
 from typing import Any, NamedTuple
 
@@ -9,27 +9,27 @@ __all__ = ["Call"]
 
 
 class Call(NamedTuple):
-    """A command or request that was understood, and the module that is to carry it out."""
+    """A decoded command or request, and the module that carries it out."""
 
     state: State
     message: Any
     signals: Signals
     now: float
     values: tuple[Any, ...] = ()
-    """What is to be written to a row of registers."""
+    """The values to write to a row of registers."""
 
     @property
     def eeprom(self) -> Eeprom:
-        """What the module has stored."""
+        """The stored settings of the module."""
         return self.state.eeprom
 
     @property
     def address(self) -> int:
-        """The address that the message is for."""
+        """The address of the message."""
         address: int = self.message.address
         return address
 
     @property
     def value(self) -> Any:  # noqa: ANN401 - what the row holds
-        """The value that is to be written to a row of one."""
+        """The value to write to a row with one value."""
         return self.values[0]

@@ -1,6 +1,6 @@
-"""The changes that both protocols make to a module: one fact, two doors.
+"""The changes that both protocols make to a module.
 
-Laws: what a change may be is checked at its door; here it is made.
+Laws: each protocol checks its changes; the functions here make them.
 """
 
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ __all__ = [
 
 
 def type_code(state: State) -> int:
-    """Tell the type of all channels, or `MIXED` if they differ; also where TT is not used (E81).
+    """Return the type of all channels, or `MIXED` if they differ; also for models that ignore TT (E81).
 
     Manual: 2.10.
     """
@@ -31,7 +31,7 @@ def type_code(state: State) -> int:
 
 
 def set_types(state: State, code: TypeCode, channels: Iterable[int] | None = None) -> State:
-    """Set the type of some channels, or of all; where they cannot differ, of all."""
+    """Set the type of some channels, or of all; models whose channels cannot differ set all."""
     types = list(state.eeprom.type_codes)
     if channels is None or not state.profile.individually_configurable:
         return state.store(type_codes=(code,) * len(types))
@@ -41,7 +41,7 @@ def set_types(state: State, code: TypeCode, channels: Iterable[int] | None = Non
 
 
 def set_address(state: State, address: int) -> State:
-    """Set the address: at once, but in INIT mode, where it stays 00 until the next power-on.
+    """Set the address: at once, except in INIT mode, where it stays 00 until the next power-on.
 
     Manual: 2.1, 3.3.2; E90 (at once by Modbus too: assumption), E101.
     """
@@ -50,7 +50,7 @@ def set_address(state: State, address: int) -> State:
 
 
 def set_line(state: State, line: LineSettings, protocol: Protocol) -> State:
-    """Store the line and protocol of the next power-on, as Modbus does without the INIT switch.
+    """Store the line settings and protocol of the next power-on, as Modbus does without the INIT switch.
 
     Manual: 3.3.4, 3.4; E91 (by register as by function 46h: assumption).
     """
@@ -58,19 +58,19 @@ def set_line(state: State, line: LineSettings, protocol: Protocol) -> State:
 
 
 def enable_channels(state: State, mask: int, among: int) -> State:
-    """Switch the channels `among` on or off, and leave the others as they are."""
+    """Switch the channels `among` on or off; leave the others unchanged."""
     return state.store(channel_mask=state.eeprom.channel_mask & ~among | mask)
 
 
 def set_host_watchdog(state: State, now: float, *, enabled: bool, timeout: int) -> State:
-    """Switch the host watchdog and set its time-out, in tenths of a second; it begins to wait now."""
+    """Switch the host watchdog and set its timeout, in tenths of a second; the timeout restarts now."""
     return state.store(host_watchdog_enabled=enabled, host_watchdog_timeout=timeout).keep(fed_at=now)
 
 
 def set_cjc_update(state: State, update: CjcUpdate, signals: Signals) -> State:
-    """Start or end the update of the cold junction's temperature, or update it once more.
+    """Start or stop the update of the cold-junction temperature, or update it once.
 
-    Special: what it is when the update is stopped, or is made once, stays; stopping it again changes nothing.
+    Special: the temperature at the stop, or at the single update, stays; another stop changes nothing.
     Manual: 2.21; E115.
     """
     held = state.ram.held_cold_junction

@@ -1,8 +1,9 @@
-"""A module that speaks DCON (manual 2): what it tells, what it does, when it refuses and when it is silent.
+"""The DCON side of a module (manual 2): its responses, actions, refusals and silences.
 
-Laws: a frame that is damaged, not for this module or of a command that it does not have is not answered; a well-formed
-command that it cannot carry out is answered ``?AA``, and changes nothing (E27), and so is a name that could be the text
-of another response (E122, assumption). Only ``~**`` is a sign of life of the host (E106, assumption).
+Laws: a module does not answer a damaged frame, a frame for another address, or a command that it does not have. It
+answers ``?AA`` to a well-formed command that it cannot carry out, and changes nothing (E27). It also refuses a name
+that could be the text of another response (E122, assumption). Only ``~**`` restarts the host watchdog (E106,
+assumption).
 """
 
 from collections.abc import Callable
@@ -28,11 +29,11 @@ __all__ = ["step"]
 
 
 class _RefusedError(Exception):
-    """The module cannot carry out a command."""
+    """Raised for a command that the module cannot carry out."""
 
 
 def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-    """Hear a frame for this module or for all: the state after it, and the answer or None for silence."""
+    """Process a frame for this module or for all; return the state after it, and the response or None for silence."""
     try:
         command = dcon.decode_command(frame, state.profile)
     except DecodeError:
@@ -66,7 +67,7 @@ def _carry_out(call: Call) -> tuple[State, dcon.Response]:
 
 
 def _configuration(call: Call) -> dcon.Configuration:
-    """Tell what is stored; in INIT mode the address too (E18, assumption)."""
+    """Return the stored configuration; in INIT mode with the stored address too (E18, assumption)."""
     address = call.eeprom.address if call.state.ram.init_mode else call.address
     return dcon.Configuration(address, type_code(call.state), call.eeprom.line_settings, call.eeprom.report_settings)
 
@@ -112,7 +113,7 @@ _TOLD: dict[type, Callable[[Call], dcon.Response]] = {
 
 
 def _tell_sampled(call: Call) -> tuple[State, dcon.SynchronizedData]:
-    """Tell what was sampled at the last ``#**``, in the data format of now (E108); refuse if there was none."""
+    """Return the readings of the last ``#**``, in the present data format (E108); refuse if there was none."""
     ram = call.state.ram
     if ram.sampled is None:
         raise _RefusedError
@@ -125,9 +126,10 @@ def _tell_sampled(call: Call) -> tuple[State, dcon.SynchronizedData]:
 
 
 def _set_configuration(call: Call) -> State:
-    """Set the configuration: all at once but line and checksum, which take permission.
+    """Set the configuration: everything at once, except baud rate and checksum, which need permission.
 
-    Special: the INIT switch allows them for the next power-on, a soft INIT at once; with both, as the switch.
+    Special: with the INIT switch they change at the next power-on, after a soft INIT at once; with both, at the next
+        power-on.
     Manual: 2.1; E16, E17, E20, E81, E101, E107, E138.
     """
     state, command, ram = call.state, call.message, call.state.ram
@@ -145,7 +147,7 @@ def _set_configuration(call: Call) -> State:
 
 
 def _calibrate(call: Call) -> State:
-    """Calibrate, if that is enabled; the model has nothing to calibrate (E33, E86)."""
+    """Accept a calibration if enabled; the model has nothing to calibrate (E33, E86)."""
     if not call.state.ram.calibration_enabled:
         raise _RefusedError
     return call.state
@@ -158,7 +160,7 @@ def _set_protocol(call: Call) -> State:
 
 
 def _soft_init(call: Call) -> State:
-    """Allow the next command to change line and checksum for the time that was set before (E20, E32, E107)."""
+    """Allow the next command to change baud rate and checksum, within the timeout set before (E20, E32, E107)."""
     return call.state.keep(soft_init_until=call.now + call.state.ram.soft_init_timeout)
 
 

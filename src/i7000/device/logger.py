@@ -1,7 +1,7 @@
 """The clock and the data logger of the M-7017mC-16 (manual 3.4.3).
 
-Laws: nothing here knows a module: the clock is an offset to the time that `i7000.device.step` is given, and what is
-recorded is what it is handed. What the manual leaves open, which is much, is chosen here: E105, E109 to E111.
+Laws: nothing here depends on a module. The clock is an offset to the time argument of `i7000.device.step`, and the
+caller passes the words to record. Many details are not in the manual and are assumptions: E105, E109 to E111.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from i7000.settings import LogCommand, is_int
 __all__ = ["CAPACITY", "Log", "LogCommand", "Record", "date_of", "moment_of"]
 
 CAPACITY = 1024
-"""Records that the logger has room for (E109, assumption: the manual has no number)."""
+"""The capacity of the logger in records (E109, assumption: the manual has no number)."""
 RECORDS_IN_MAP = 6
 
 Date = tuple[int, int, int, int, int, int]
@@ -47,10 +47,10 @@ def _check_long(name: str, value: object) -> None:
 
 @frozen
 class Record:
-    """What the inputs read at one moment.
+    """The words of the inputs at one moment.
 
-    Shape: `words` are in the Modbus data format of that moment; `time` in seconds of the module's clock.
-    Errors: `InvalidValueError` for what no register holds.
+    Shape: `words` are in the Modbus data format at that moment; `time` in seconds of the module's clock.
+    Errors: `InvalidValueError` for values that no register can contain.
     """
 
     index: int
@@ -66,27 +66,27 @@ class Record:
 
 @frozen
 class Log:
-    """The data logger's settings and its records, oldest first; all of it is kept without power (E110).
+    """The data logger's settings and its records, oldest first; all of it survives a power cycle (E110).
 
-    Shape: records are counted from 1 on, so that a last index of 0 says that there is none (E105).
-    Time: `clock_offset` is what the module's clock, in seconds since 1970, is ahead of the time it is given.
-    Errors: `InvalidValueError` for what no module can have stored, and for a time that is not finite.
+    Shape: records are counted from 1, so a last index of 0 means that there are no records (E105).
+    Time: `clock_offset` is the module's clock, in seconds since 1970, minus the time argument.
+    Errors: `InvalidValueError` for values that no module can have stored, and for a time that is not finite.
     Manual: 3.4.3; E73, E74, E105, E109, E110, E111, E131, E135.
     """
 
     clock_offset: float = 946_684_800.0
-    """That of a clock that was never set: it begins with the year 2000, the first that it can tell (E110)."""
+    """The offset of a clock that was never set: it starts at the year 2000, the first one that it supports (E110)."""
     command: LogCommand = LogCommand.STOP
     overwrite: bool = False
     period: tuple[int, int, int] = (0, 0, 0)
-    """Hours, minutes, seconds; all zero logs nothing (E74: undefined)."""
+    """Hours, minutes, seconds; the logger does not run with a period of zero (E74: undefined)."""
     start: Date = (2000, 1, 1, 0, 0, 0)
     end: Date = (2159, 12, 31, 23, 59, 59)
     read_index: int = 1
     last_index: int = 0
     records: tuple[Record, ...] = ()
     next_at: float = 0.0
-    """When the next record is due, on the module's clock."""
+    """The time of the next record, on the module's clock."""
 
     def __attrs_post_init__(self) -> None:
         for name, value in (("clock_offset", self.clock_offset), ("next_at", self.next_at)):
@@ -107,16 +107,16 @@ class Log:
 
     @property
     def seconds(self) -> int:
-        """The sampling period."""
+        """The sampling period in seconds."""
         hours, minutes, seconds = self.period
         return hours * 3600 + minutes * 60 + seconds
 
     def clock(self, now: float) -> float:
-        """Tell what the module's clock says, in seconds since 1970."""
+        """Return the module's clock, in seconds since 1970."""
         return self.clock_offset + now
 
     def running(self, now: float) -> bool:
-        """Whether it logs: told to, with a period, room, and the clock between start and end in period mode."""
+        """Return whether the logger runs: started, with a period and free records, and within its period mode limits."""
         within = moment_of(self.start) <= self.clock(now) <= moment_of(self.end)
         return (
             self.command is not LogCommand.STOP
@@ -126,7 +126,7 @@ class Log:
         )
 
     def planned(self, now: float) -> "Log":
-        """Plan the next record after a change of settings or of the clock.
+        """Schedule the next record after a change of settings or of the clock.
 
         Time: at once in continuous mode; in period mode at the next whole period after the start (E105, E110).
         """
@@ -136,7 +136,7 @@ class Log:
         return evolve(self, next_at=clock)
 
     def due(self, now: float) -> int:
-        """Tell how many records are due, however much room there is."""
+        """Return how many records are due, regardless of the capacity."""
         if self.command is LogCommand.STOP or not self.seconds:
             return 0
         until = self.clock(now)
@@ -145,12 +145,12 @@ class Log:
         return max(0, floor((until - self.next_at) / self.seconds) + 1)
 
     def resumed(self, now: float) -> "Log":
-        """Leave out what was due without power; the records after it keep to their periods (E110)."""
+        """Skip the records that were due without power; later records keep their period (E110)."""
         due = self.due(now)
         return evolve(self, next_at=self.next_at + due * self.seconds) if due else self
 
     def recorded(self, words: tuple[int, ...], due: int) -> "Log":
-        """Write the records that are due, as many as there is room for; the oldest make room where that is allowed."""
+        """Add the records that are due, up to the capacity; the oldest are overwritten if that is enabled."""
         room = due if self.overwrite else min(due, CAPACITY - len(self.records))
         new = tuple(
             Record(self.last_index + 1 + at & 0xFFFFFFFF, words, floor(self.next_at + at * self.seconds) & 0xFFFFFFFF)
@@ -164,7 +164,7 @@ class Log:
         )
 
     def set_clock(self, parts: Mapping[str, int], now: float) -> "Log":
-        """Set some parts of the date; a date that the month does not have becomes its last (E111)."""
+        """Set some parts of the date; a day that the month does not have becomes its last (E111)."""
         date = changed(date_of(self.clock(now)), parts)
         return self.set_epoch(moment_of(date), now)
 
@@ -173,7 +173,7 @@ class Log:
         return evolve(self, clock_offset=seconds - now).planned(now)
 
     def window(self) -> tuple[Record | None, ...]:
-        """Tell the records that the registers show: those from the read index on."""
+        """Return the records that the registers show: those from the read index on."""
         by_index = {record.index: record for record in self.records}
         return tuple(by_index.get(self.read_index + at) for at in range(RECORDS_IN_MAP))
 
@@ -182,7 +182,7 @@ DATE_PARTS = tuple(_DATE_LIMITS)
 
 
 def changed(date: Date, parts: Mapping[str, int]) -> Date:
-    """Change some parts of a date."""
+    """Return a date with some parts changed."""
     year, month, day, hour, minute, second = (
         parts.get(name, value) for name, value in zip(DATE_PARTS, date, strict=True)
     )
@@ -190,7 +190,7 @@ def changed(date: Date, parts: Mapping[str, int]) -> Date:
 
 
 def moment_of(date: Date) -> int:
-    """Tell the seconds from 1970 to a date; a day that the month does not have is its last.
+    """Return the seconds from 1970 to a date; a day that the month does not have becomes its last.
 
     >>> moment_of((2020, 12, 22, 13, 5, 9)), moment_of((2021, 2, 31, 0, 0, 0)) == moment_of((2021, 2, 28, 0, 0, 0))
     (1608642309, True)
@@ -201,7 +201,7 @@ def moment_of(date: Date) -> int:
 
 
 def date_of(seconds: float) -> Date:
-    """Tell the date that is so many seconds after 1970.
+    """Return the date so many seconds after 1970.
 
     >>> date_of(1608642309.7)
     (2020, 12, 22, 13, 5, 9)
@@ -218,7 +218,7 @@ _DAYS_BEFORE = (0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334)
 
 
 def _days(year: int, month: int) -> int:
-    """Days from 1970 to the first of a month."""
+    """Return the days from 1970 to the first of a month."""
     past = year - 1
     leaps = past // 4 - past // 100 + past // 400 - 477
     leap = month > 2 and year % 4 == 0 and (year % 100 != 0 or year % 400 == 0)

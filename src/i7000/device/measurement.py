@@ -1,9 +1,8 @@
-"""What a module makes of its signals: readings, fields, words, range bits (manual 1.11, 2.11, 2.22, 3.2, 3.5).
+"""The measurements of a module: readings, fields, words and range bits (manual 1.11, 2.11, 2.22, 3.2, 3.5).
 
 Laws: every signal has a reading, every reading a field and a word. The model is linear: a thermocouple without
-compensation reads its hot end less the cold junction, and an error of the cold junction is an error of the reading
-(E116, assumption: the manual has no tables of thermocouples). What is asked for again while nothing has changed is
-remembered.
+compensation reads its hot end minus the cold junction, and an error of the cold junction is an error of the reading
+(E116, assumption: the manual has no thermocouple tables). Results are cached while nothing changes.
 """
 
 from collections.abc import Callable
@@ -32,7 +31,7 @@ __all__ = ["cold_junction", "faults", "fields", "readings", "sample", "sampled_f
 
 _7018_SERIES, _7019_SERIES = series("7018"), series("7019")
 _MILLIVOLTS = {Unit.MILLIVOLT: 1.0, Unit.VOLT: 1000.0, Unit.MILLIAMPERE: 125.0}
-"""Of one unit at the terminals: a current input has a resistor of 125 ohms across it (1.11)."""
+"""The millivolts of one unit at the terminals: a current input has a resistor of 125 ohms across it (1.11)."""
 _FAST_STEPS = 0x1000
 _REMEMBERED = 256
 
@@ -40,11 +39,11 @@ _REMEMBERED = 256
 
 
 def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
-    """Tell what the channels read, those included that only the single-ended mode has.
+    """Return the readings of the channels, including those that only the single-ended mode has.
 
     Special: a disabled channel is `Status.DISABLED`; beyond the span of the type is over or under range, for voltages
-        and currents too (E50, assumption); an open thermocouple wire is over range where it is looked for (E69,
-        assumption), and else reads as a short circuit does (E116, assumption).
+        and currents too (E50, assumption); an open thermocouple wire is over range with open wire detection (E69,
+        assumption), and otherwise reads as a short circuit (E116, assumption).
     Manual: 1.3, 1.11; E42, E50, E69, E96, E116, E118, E119, E133.
     """
     return _readings(state.inputs, _junction(state, signals), signals)
@@ -79,14 +78,14 @@ def _readings(inputs: Inputs, junction: float, signals: Signals) -> tuple[Readin
 
 
 def _electrical(signal: Signal | None, unit: Unit) -> float:
-    """Tell the voltage or current at an input in another unit; nothing and thermocouples are as good as 0."""
+    """Return the voltage or current at an input in another unit; open inputs and thermocouples are 0."""
     if signal is None or signal.unit is Unit.CELSIUS:
         return 0.0
     return signal.value * _MILLIVOLTS[signal.unit] / _MILLIVOLTS[unit]
 
 
 def _hot(eeprom: Eeprom, signals: Signals, signal: Signal | None) -> float:
-    """Tell the hot end of a thermocouple; voltages and currents drive it out of range, and 0 shorts it."""
+    """Return the hot end of a thermocouple; voltages and currents drive it out of range, and 0 shorts it."""
     if signal is None:
         return float("inf") if eeprom.open_wire_detection else signals.cold_junction
     if signal.unit is Unit.CELSIUS:
@@ -95,7 +94,7 @@ def _hot(eeprom: Eeprom, signals: Signals, signal: Signal | None) -> float:
 
 
 def _compensation(eeprom: Eeprom, junction: float, channel: int) -> float:
-    """Tell what is added to hot less cold: the cold junction as it is known, and offsets (E62, E134)."""
+    """Return the temperature to add to hot minus cold: the measured cold junction, and offsets (E62, E134)."""
     own = eeprom.channel_offsets[channel] / 10
     if eeprom.model not in _7019_SERIES:
         return junction + eeprom.cjc_offset / 100 + own if eeprom.cjc_enabled else 0.0
@@ -105,7 +104,7 @@ def _compensation(eeprom: Eeprom, junction: float, channel: int) -> float:
 
 
 def _in_twelve_bits(value: float, type_code: TypeCode) -> float:
-    """Round to the steps of the fast mode, of which the span has 4096 (E119); the last is one step below the top."""
+    """Round to the steps of the fast mode, 4096 over the span (E119); the last is one step below the top."""
     low = -type_code.full_scale if type_code.signed_hex else type_code.minimum
     step = (type_code.maximum - low) / _FAST_STEPS
     return low + min(round((value - low) / step), _FAST_STEPS - 1) * step
@@ -115,13 +114,13 @@ def _in_twelve_bits(value: float, type_code: TypeCode) -> float:
 
 
 def _junction(state: State, signals: Signals) -> float:
-    """Tell the temperature of the cold junction as the module knows it: of now, or of when its update ended."""
+    """Return the measured temperature of the cold junction: the present one, or that of the last update."""
     held = state.ram.held_cold_junction
     return signals.cold_junction if held is None else held
 
 
 def cold_junction(state: State, signals: Signals) -> float:
-    """Tell the temperature of the cold junction as it is reported: with the offset on the 7018 series.
+    """Return the reported temperature of the cold junction: with the offset on the 7018 series.
 
     Manual: 2.11; E29 (the same by Modbus).
     """
@@ -135,7 +134,7 @@ _OUT_OF_RANGE = (Status.OVER_RANGE, Status.UNDER_RANGE)
 
 
 def faults(state: State, signals: Signals, channels: int) -> tuple[bool, ...]:
-    """Tell which channels are on and out of range: all types on the 7019 series, 4..20 and 0..20 mA elsewhere.
+    """Return the channels that are on and out of range: all types on the 7019 series, 4..20 and 0..20 mA on others.
 
     Manual: 2.22, 3.1, 3.4; E14, E58, E71, E84.
     """
@@ -145,9 +144,10 @@ def faults(state: State, signals: Signals, channels: int) -> tuple[bool, ...]:
 
 
 def fields(state: State, signals: Signals, data_format: DataFormat | None = None) -> tuple[str, ...]:
-    """Tell the fields of a report of all channels, in the module's data format or in one that is given.
+    """Return the fields of a report of all channels, in the module's data format or in another one.
 
-    Special: a disabled channel is blanks on the 7019 series, and elsewhere what a register has (E25, assumption).
+    Special: a disabled channel is blanks on the 7019 series; on others it has the value of its register (E25,
+        assumption).
     Manual: 1.11, 2.3; E25, E49.
     """
     if data_format is None:
@@ -166,12 +166,12 @@ def _fields(inputs: Inputs, junction: float, signals: Signals, data_format: Data
 
 
 def sample(state: State, signals: Signals) -> Sample:
-    """Tell what ``#**`` keeps: the type of each channel, and what it reads."""
+    """Return the sample that ``#**`` keeps: the type of each channel, and its reading."""
     return tuple(zip(state.profile.type_codes, readings(state, signals), strict=False))
 
 
 def sampled_fields(kept: Sample, data_format: DataFormat) -> tuple[str, ...]:
-    """Tell the fields of what ``#**`` has kept; whatever was set since, but the data format, does not matter.
+    """Return the fields of the sample kept by ``#**``; later settings have no effect, except the data format.
 
     Manual: 2.12; E25, E108.
     """
@@ -182,7 +182,7 @@ def sampled_fields(kept: Sample, data_format: DataFormat) -> tuple[str, ...]:
 def _written(
     told: tuple[Reading, ...], types: tuple[TypeCode, ...], data_format: DataFormat, *, legacy: bool
 ) -> tuple[str, ...]:
-    """Write readings, or the ends of the spans that are nearest to what the format cannot say."""
+    """Encode readings, or the nearest end of the span for a reading that the format cannot express."""
     try:
         return encode_fields(told, types, data_format, legacy=legacy)
     except EncodeError:
@@ -190,7 +190,7 @@ def _written(
 
 
 def words(state: State, signals: Signals) -> tuple[int, ...]:
-    """Tell the registers of the channels, in the Modbus data format.
+    """Return the registers of the channels, in the Modbus data format.
 
     Special: a disabled channel is 0, or the lower end of a type that begins above it (E97, assumption).
     Manual: 3.2, 3.5; E83, E97, E118.
@@ -225,7 +225,7 @@ _Written = TypeVar("_Written", str, int)
 def _clamped(
     write: Callable[[Reading, TypeCode], _Written], told: tuple[Reading, ...], types: tuple[TypeCode, ...]
 ) -> tuple[_Written, ...]:
-    """Write readings, the nearest end of the span for a range error that has no word (E46, E137)."""
+    """Encode readings; use the nearest end of the span for a range error without a word (E46, E137)."""
     written = []
     for reading, type_code in zip(told, types, strict=True):
         try:
@@ -240,7 +240,7 @@ _OUT_OF_RANGE_DEGREES = {Status.OVER_RANGE: 0x7FFF, Status.UNDER_RANGE: -0x8000,
 
 
 def temperatures(state: State, signals: Signals) -> tuple[int, ...]:
-    """Tell the registers of whole degrees of the M-7018-16 (30033..); 0 for what is no thermocouple (E117).
+    """Return the registers of whole degrees of the M-7018-16 (30033..); 0 for types that are not thermocouples (E117).
 
     Manual: 3.4.7.
     """

@@ -1,8 +1,9 @@
-"""A module that speaks Modbus RTU (manual 3): functions 01 to 06, 0F, 10 and 46h.
+"""The Modbus RTU side of a module (manual 3): functions 01 to 06, 0F, 10 and 46h.
 
-Laws: a frame that is damaged or not for this module is not answered; what cannot be done is answered with an exception
-and changes nothing; what is for all modules is done and not answered (E94). Any request that is carried out is a sign
-of life of the host (E106, assumption: the protocol has no other). Padding bits of coils are not looked at (E120).
+Laws: a module does not answer a damaged frame or a frame for another address. It answers an exception to a request that
+it cannot carry out, and changes nothing. It carries out broadcasts without a response (E94). Every request that it
+carries out restarts the host watchdog (E106, assumption: the protocol has no other way). Padding bits of coils are
+ignored (E120).
 """
 
 from collections.abc import Callable
@@ -24,7 +25,7 @@ __all__ = ["step"]
 
 
 def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-    """Hear a frame for this module or for all: the state after it, and the answer or None for silence."""
+    """Process a frame for this module or for all; return the state after it, and the response or None for silence."""
     try:
         request = modbus.decode_request(frame, state.profile)
     except DecodeError as error:
@@ -46,7 +47,7 @@ _UNHEARD = (Fault.CRC, Fault.ADDRESS)
 
 
 def _code_of(error: DecodeError, state: State) -> ExceptionCode | None:
-    """Tell the exception that answers a damaged request; None for what is no request to this module at all.
+    """Return the exception code for a damaged request; None for a frame that is not a request to this module.
 
     Manual: 3, 3.1, 3.2, 3.3; E94, E99.
     """
@@ -62,18 +63,18 @@ def _code_of(error: DecodeError, state: State) -> ExceptionCode | None:
 
 
 _AVAILABILITY = {request.section: request.availability for request in modbus.REQUESTS}
-"""Who has the requests of a section; all that share a section are for the same models."""
+"""The availability of the requests of a section; all requests of a section have the same."""
 
 
 def _unsupported(section: str, state: State) -> ExceptionCode | None:
-    """Tell how a function that the model does not have is answered: 01, and 02 for one of the sub-functions."""
+    """Return the exception code for a function that the model does not have: 01, or 02 for a sub-function."""
     if _AVAILABILITY.get(section) not in state.profile.refused:
         return None
     return ExceptionCode.ILLEGAL_DATA_ADDRESS if section.startswith("3.3.") else ExceptionCode.ILLEGAL_FUNCTION
 
 
 def _exception(address: int, function: int, code: ExceptionCode, state: State) -> bytes | None:
-    """Write an exception; function codes 00 and 80 cannot be told in one."""
+    """Encode an exception; function codes 00 and 80 have no exception."""
     function &= 0x7F
     return modbus.encode(modbus.ExceptionResponse(address, function, code), state.profile) if function else None
 
@@ -126,7 +127,7 @@ _WRITTEN: dict[type, Callable[[Any], tuple[Area, int, tuple[int, ...], modbus.Re
         modbus.MultipleRegistersWritten(it.address, it.start, len(it.values)),
     ),
 }  # fmt: skip
-"""Where a request writes what, and what answers it."""
+"""The items that each request writes, and the class of its response."""
 
 
 # --- function 46h -----------------------------------------------------------------------------------------------------
@@ -138,7 +139,7 @@ def _miscellaneous(call: Call) -> int:
 
 
 def _offset(call: Call) -> int:
-    """Tell the offset of the module, or of a channel as a byte (E62)."""
+    """Return the offset of the module, or of a channel as a byte (E62)."""
     channel = call.message.channel
     return call.eeprom.channel_offsets[channel - 0x80] & 0xFF if channel else call.eeprom.cjc_offset
 
@@ -191,7 +192,7 @@ _DONE: dict[type, Callable[[Call], State]] = {
 
 
 def _acknowledgement(call: Call) -> modbus.Response:
-    """Say that a setting was made: from the old address, if it was that (E90)."""
+    """Return the response that a setting was made: from the old address if the address was set (E90)."""
     if isinstance(call.message, modbus.SetCommunicationSettings):
         return modbus.CommunicationSettingsResult(call.address, 0, 0)
     response: modbus.Response = call.message.response(call.address, 0)

@@ -1,4 +1,4 @@
-"""A whole module: what time does to it, and what a frame does (manual 2, 3, A.2)."""
+"""A whole module: the effects of time and of frames (manual 2, 3, A.2)."""
 
 from i7000.arguments import as_bytes, check_clock, check_type
 from i7000.device import dcon, modbus
@@ -14,12 +14,12 @@ _MOST_TIMEOUTS = 0xFFFF
 
 
 def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-    r"""Let a module hear a frame: the state after it, and the answer or None for silence.
+    r"""Give a frame to a module; return the state after it, and the response or None for silence.
 
-    Shape: `frame` is one whole frame, as the splitter of its protocol finds it.
-    Time: `now` is in seconds, of the clock that `power_on` was given.
-    Special: no frame raises; one that is not carried out changes nothing but what time does, see `advance`.
-    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
+    Shape: `frame` is one complete frame, as `split` of its protocol returns it.
+    Time: `now` is in seconds, of the clock of `power_on`.
+    Special: no frame raises an error; a frame that is not carried out only has the effects of time, see `advance`.
+    Errors: `EncodeError` for a time that is not finite, `StateError` for a time before the last.
     Manual: 2, 3; E27, E94.
 
     >>> from i7000.device import factory, power_on
@@ -38,7 +38,7 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
 
 
 def is_for(state: State, frame: bytes) -> bool:
-    """Whether a frame has the address of this module."""
+    """Return whether a frame has the address of this module."""
     address = state.ram.address
     return frame[:1] == _BYTES[address] if _speaks_modbus(state) else frame[1:3] == _DIGITS[address]
 
@@ -56,11 +56,11 @@ _DIGITS = tuple([b"%02X" % address for address in range(0x100)])
 
 
 def advance(state: State, signals: Signals, now: float) -> State:
-    """Let time pass: the host watchdog may time out, the data logger record.
+    """Move the time on: the host watchdog may time out, and the data logger may record.
 
-    Special: what the logger missed since it was last called, it records with the `signals` of now.
-    Errors: `EncodeError` for a time that is not finite, `StateError` for one before the last.
-    Manual: 2.36, 3.4.3, A.2; E31 (a time-out disables the watchdog), E100 (one of 0 never comes), E106, E114, E138.
+    Special: records that were due since the last call have the `signals` of this call.
+    Errors: `EncodeError` for a time that is not finite, `StateError` for a time before the last.
+    Manual: 2.36, 3.4.3, A.2; E31 (a timeout disables the watchdog), E100 (one of 0 never comes), E106, E114, E138.
     """
     if state.__class__ is not State:
         check_type("state", state, State)

@@ -1,4 +1,4 @@
-"""What a module forgets without power (manual 2, A.1, A.2)."""
+"""The memory that a module loses without power (manual 2, A.1, A.2)."""
 
 from types import NoneType
 
@@ -13,40 +13,40 @@ from i7000.type_codes import TypeCode
 __all__ = ["Ram", "Sample"]
 
 Sample = tuple[tuple[TypeCode, Reading], ...]
-"""The type of each channel and what it read, at one moment."""
+"""The type and the reading of each channel at one moment."""
 
 
 @frozen(slots=False)
 class Ram:
-    """What a module forgets without power.
+    """The memory that a module loses without power.
 
-    Time: moments are those of the clock that `i7000.device.step` is given.
+    Time: moments are in seconds of the clock of `i7000.device.step`.
     Manual: 2.2, 2.21, 2.31, 2.32, 2.34, A.1, A.2.
     """
 
     address: int
-    """What it answers to: 00 after power-on in INIT mode."""
+    """The address at which the module answers: 00 after power-on in INIT mode."""
     line_settings: LineSettings
     checksum: bool
     protocol: Protocol
     init_mode: bool
-    """Whether power came with the INIT switch set."""
+    """Whether the INIT switch was set at power-on."""
     init_switch: bool
     """Whether the switch is set now (E17)."""
     fed_at: float
-    """When the host watchdog last heard of the host."""
+    """The time when the host watchdog was last restarted."""
     sampled: Sample | None = None
-    """What the channels read at the last ``#**``."""
+    """The sample of the last ``#**``."""
     sampled_data_told: bool = False
     calibration_enabled: bool = False
     soft_init_timeout: int = 0
-    """Seconds."""
+    """The soft INIT timeout in seconds."""
     soft_init_until: float | None = None
-    """Until when line and checksum can be changed (E107)."""
+    """The time until which baud rate and checksum can be changed (E107)."""
     cjc_update: CjcUpdate = CjcUpdate.STARTED
-    """Not kept without power: power-on starts the update, the default (E115)."""
+    """The update setting; power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
-    """The cold junction's temperature when its update ended, in degrees Celsius; None while it is updated."""
+    """The cold-junction temperature when its update stopped, in degrees Celsius; None while it is updated."""
     reset_status_told: bool = False
 
     def __attrs_post_init__(self) -> None:
@@ -82,7 +82,7 @@ _KEPT: dict[str, tuple[type, ...]] = {
     "soft_init_until": (int, float, NoneType), "cjc_update": (CjcUpdate,),
     "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
 }  # fmt: skip
-"""What each field of `Ram` can be."""
+"""The types of each field of `Ram`."""
 _BYTES = {"address": "2", "soft_init_timeout": "2.34"}
 """The fields of `Ram` that must be a byte, and their sections of the manual."""
 _TIMES = ("fed_at", "soft_init_until")

@@ -1,7 +1,7 @@
 """The coils, inputs and registers of a module's map, read and written (manual 3.4).
 
-Laws: which there are and what they can hold is what `i7000.modbus` says; that they are facts of the same state as the
-DCON commands is said here. A write is made as a whole or not at all.
+Laws: `i7000.modbus` defines the rows and their values; this module connects them to the state that DCON commands use
+too. A write is made completely or not at all.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -34,7 +34,7 @@ __all__ = ["RequestError", "read", "write"]
 
 
 class RequestError(Exception):
-    """A request that is answered with an exception, whose code is its only argument."""
+    """Raised for a request that is answered with an exception; the code is the only argument."""
 
     @property
     def code(self) -> ExceptionCode:
@@ -45,7 +45,7 @@ class RequestError(Exception):
 
 @lru_cache(maxsize=256)
 def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register, int]]]:
-    """Tell which row an address belongs to, and which of its items it is."""
+    """Return the row of an address, and the place of its item in the row."""
     found: dict[Area, dict[int, tuple[Register, int]]] = {area: {} for area in Area}
     for row in rows(Profile(model, firmware=Firmware(firmware), type_codes=())):
         found[row.area] |= {row.address + at: (row, at) for at in range(row.count)}
@@ -56,9 +56,9 @@ def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register,
 def _spans(
     model: Model, firmware: str, area: Area, asked: range, forbidden: Access
 ) -> tuple[tuple[Register, int], ...]:
-    """Find the rows of some addresses, and which of their items is the first that is meant.
+    """Return the rows of a range of addresses, with the first item of each.
 
-    Errors: `RequestError` 02 where the first is not there for this access; 03 where any other is not.
+    Errors: `RequestError` 02 if the first address does not allow this access; 03 if another one does not.
     Manual: 3.1, 3.2; E94, E99.
     """
     places = _map_of(model, firmware)[area]
@@ -75,7 +75,7 @@ def _spans(
 
 
 def read(call: Call, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
-    """Read coils, inputs or registers: the state after it, and what they hold.
+    """Return the state after a read of coils, inputs or registers, and their values.
 
     Special: reading the reset status ends it. Log records are read whole.
     Errors: `RequestError`, see `_spans`; 03 for a part of a log record.
@@ -92,7 +92,7 @@ def read(call: Call, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
 
 
 def _words_of(row: Register, call: Call) -> tuple[int, ...]:
-    """Tell what all items of a row hold, as bits or words."""
+    """Return the values of all items of a row, as bits or words."""
     values = _READ[row.name](call)
     items: tuple[int, ...] = (values,) if isinstance(values, int) else tuple(values)
     if row.kind is Kind.UINT32:
@@ -102,7 +102,7 @@ def _words_of(row: Register, call: Call) -> tuple[int, ...]:
 
 
 def _records(call: Call) -> list[int]:
-    """Tell the records from the read index on; where there is none, zeros (E109)."""
+    """Return the records from the read index on; zeros for a missing record (E109)."""
     words: list[int] = []
     for record in call.eeprom.log.window():
         if record is None:
@@ -173,7 +173,7 @@ _READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
     **{f"rtc_{part}": _clock(at) for at, part in enumerate(DATE_PARTS)},
     **{f"log_{name}_{part}": _log_date(name, at) for name in ("start", "end") for at, part in enumerate(DATE_PARTS)},
 }
-"""What each row holds: a number for each of its items, of two's complement where it is negative; see E75, E77."""
+"""The values of each row: a number for each of its items, negative ones in two's complement; see E75, E77."""
 
 # --- writing ----------------------------------------------------------------------------------------------------------
 
@@ -181,8 +181,8 @@ _READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
 def write(call: Call, area: Area, start: int, items: Sequence[int]) -> State:
     """Write coils or registers.
 
-    Special: one register of a number of two keeps the other as it is.
-    Errors: `RequestError`, see `_spans`; 03 for what a row cannot hold (E94, E136).
+    Special: a write to one register of a 32-bit number leaves the other unchanged.
+    Errors: `RequestError`, see `_spans`; 03 for values that a row cannot contain (E94, E136).
     """
     state, now = call.state, call.now
     asked, eeprom = range(start, start + len(items)), call.eeprom
@@ -203,11 +203,11 @@ def write(call: Call, area: Area, start: int, items: Sequence[int]) -> State:
 
 
 _CLOCK_PARTS = {f"rtc_{part}": part for part in DATE_PARTS}
-"""Parts of one date, which together must be a day that there is."""
+"""The parts of a date; together they must be an existing day."""
 
 
 def _values(row: Register, at: int, new: Sequence[int], call: Call) -> tuple[Any, ...]:
-    """Tell the values of all items of a row after a write from its item `at` on, if it can hold them."""
+    """Return the values of all items of a row after a write from its item `at` on; raise if they are invalid."""
     words: list[int] = list(new)
     if len(new) != row.count:
         words = list(_words_of(row, call))
@@ -307,4 +307,4 @@ _WRITE: dict[str, Callable[[Call], State]] = {
     **{f"log_period_{part}": _set_period(at) for at, part in enumerate(_PERIOD_PARTS)},
     **{f"log_{name}_{part}": _set_log_date(name, part) for name in ("start", "end") for part in DATE_PARTS},
 }
-"""What writing each row does."""
+"""The effect of a write to each row."""

@@ -1,6 +1,6 @@
-"""What is connected to the inputs of a module, in physical units.
+"""The signals at the inputs of a module, in physical units.
 
-Laws: a signal is what a meter would show at the terminals; what the module makes of it is its own business.
+Laws: a signal is what a meter at the terminals shows; `i7000.device.measurement` computes the readings.
 """
 
 from attrs import field, frozen
@@ -14,9 +14,9 @@ __all__ = ["OPEN_WIRE", "Signal", "Signals"]
 
 @frozen
 class Signal:
-    """What is on one input: a voltage, a current, or the temperature of a thermocouple's hot end.
+    """The signal at one input: a voltage, a current, or the temperature of a thermocouple's hot end.
 
-    Errors: `InvalidValueError` for what is not finite, or has no unit.
+    Errors: `InvalidValueError` for a value that is not finite, and for an invalid unit.
     """
 
     value: float
@@ -30,7 +30,7 @@ class Signal:
 
 
 OPEN_WIRE = None
-"""An input that nothing is connected to."""
+"""An input without a connection."""
 
 _COLDEST, _HOTTEST = -200.0, 200.0
 
@@ -41,10 +41,11 @@ def _degrees(value: float) -> float:
 
 @frozen(cache_hash=True)
 class Signals:
-    """What is on all inputs of a module, channel 0 first; those that are not named are open.
+    """The signals at all inputs of a module, channel 0 first; inputs beyond the last one are open.
 
     Unit: `cold_junction`, the temperature at the terminals, in degrees Celsius.
-    Errors: `InvalidValueError` for channels that are no tuple of signals, for a temperature that no module survives.
+    Errors: `InvalidValueError` for channels that are not a tuple of signals, and for a temperature that no module
+        survives.
 
     >>> Signals.of(Unit.VOLT, 1.5, -2.0).channel(1), Signals().channel(7)
     (Signal(value=-2.0, unit=<Unit.VOLT: 'V'>), None)
@@ -61,10 +62,10 @@ class Signals:
 
     @classmethod
     def of(cls, unit: Unit, *values: float, cold_junction: float = 25.0) -> "Signals":
-        """Make signals that all have the same unit."""
+        """Return signals that all have the same unit."""
         return cls(tuple(Signal(value, unit) for value in values), cold_junction=cold_junction)
 
     def channel(self, number: int) -> Signal | None:
-        """Tell what is on one channel; there is nothing on one that is not there."""
+        """Return the signal of one channel; an open wire for a channel that is not connected."""
         check_int("number", number)
         return self.channels[number] if 0 <= number < len(self.channels) else OPEN_WIRE

@@ -1,7 +1,7 @@
-"""What a module remembers, with and without power, and how power changes it (manual 1.9, 1.12.2, A.1).
+"""The memory of a module, with and without power, and how power changes it (manual 1.9, 1.12.2, A.1).
 
-Laws: what survives a power cycle is in `Eeprom`, all else in `Ram`; both are frozen, so a power cycle is a function
-too. A `State` always has the profile that its bytes are read with.
+Laws: `Eeprom` survives a power cycle, `Ram` does not; both are frozen, so a power cycle is a function too. A `State`
+always has the profile that decodes its bytes.
 """
 
 from collections.abc import Callable
@@ -30,11 +30,11 @@ from i7000.type_codes import TypeCode
 __all__ = ["NEWEST", "Eeprom", "Inputs", "State", "factory", "power_on"]
 
 NEWEST = Firmware("B4.5")
-"""The latest firmware that the manual names: what a module has that is not said to have another (E113)."""
+"""The latest firmware in the manual for each series; the default of a module (E113)."""
 
 
 def inputs_of(model: Model) -> int:
-    """Tell how many channels a model has in the connecting mode that has most."""
+    """Return the number of channels of a model in the connecting mode with the most channels."""
     return model.single_ended_channels or model.channels
 
 
@@ -98,10 +98,11 @@ def _check_report(_: "Eeprom", attribute: "Attribute[Any]", report: ReportSettin
 
 @frozen(slots=False)  # so that a copy is one dictionary
 class Eeprom:
-    """What a module remembers without power: the factory's settings where nothing else is said.
+    """The memory of a module that survives a power cycle. Only `model` is required.
 
-    Shape: per-channel tuples have an entry for each channel of the single-ended mode, where there is one.
-    Errors: `InvalidValueError` for what no module can have stored.
+    Shape: per-channel tuples have an entry for each channel of the single-ended mode, if the model has one. Every other
+        field has the factory default.
+    Errors: `InvalidValueError` for values that no module can have stored.
     Manual: 1.9, 1.11, 2, 3.4; E35, E72, E83, E95.
     """
 
@@ -110,7 +111,7 @@ class Eeprom:
     type_codes: tuple[TypeCode, ...] = field(validator=_one_each(_a(TypeCode)))
     report_settings: ReportSettings = field(validator=_check_report)
     name: str = field(validator=_check_name)
-    """What ``$AAM`` tells; that of the factory is the model's number, cut to six characters (E113)."""
+    """The name that ``$AAM`` reads; the factory name is the number of the model, cut to six characters (E113)."""
     protocol: Protocol = field(validator=_check_protocol)
     channel_mask: int = field(validator=_check_mask)
     channel_offsets: tuple[int, ...] = field(validator=_one_each(_within(*CHANNEL_OFFSETS)))
@@ -130,11 +131,11 @@ class Eeprom:
     """Tenths of a second."""
     host_watchdog_timed_out: bool = field(default=False, validator=_a(bool))
     host_watchdog_timeouts: int = field(default=0, validator=_within(0, 0xFFFF))
-    """How often it has timed out (40492); kept without power, as the status is (E114)."""
+    """The number of timeouts (40492); it survives a power cycle, as the status does (E114)."""
     host_watchdog_mode: bool = field(default=False, validator=_a(bool))
-    """Coil 00260, which means nothing to modules without outputs (E30)."""
+    """Coil 00260, which has no effect on modules without outputs (E30)."""
     response_delay: int = field(default=0, validator=_within(*RESPONSE_DELAYS))
-    """Milliseconds, by Modbus."""
+    """The response delay by Modbus, in milliseconds."""
     sampling_rate_8_hz: bool = field(default=True, validator=_a(bool))
     """Coil 00274 of the M-7019R; 1.3 has 8 samples a second (E72)."""
     big_endian: bool = field(default=False, validator=_a(bool))
@@ -144,9 +145,9 @@ class Eeprom:
         self.check_types(profile_of(self))  # which refuses a mode or format that the model does not have
 
     def check_types(self, profile: Profile) -> None:
-        """Refuse types of the channels that the connecting mode does not have; those of the others, `profile` refused.
+        """Raise `InvalidValueError` for unsupported types of channels outside the connecting mode.
 
-        Errors: `InvalidValueError`.
+        Errors: `InvalidValueError`; the profile has checked the types of the other channels.
         """
         check_type("profile", profile, Profile)
         if not all(map(profile.supports, self.type_codes[profile.channels :])):
@@ -157,16 +158,16 @@ _STORED = fields_dict(Eeprom)
 _OF_PROFILE = frozenset({
     "firmware", "type_codes", "single_ended", "report_settings", "modbus_data_format",
 })  # fmt: skip
-"""What the profile depends on, beside the model."""
+"""The fields that the profile depends on, beside the model."""
 _OF_READINGS = _OF_PROFILE | {
     "channel_mask", "channel_offsets", "channel_cjc_offsets", "open_wire_detection", "cjc_offset", "cjc_enabled",
 }  # fmt: skip
-"""What readings depend on, however they are told."""
+"""The fields that readings depend on, in any data format."""
 _Frozen = TypeVar("_Frozen")
 
 
 def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
-    """Copy a frozen value with changes, whose values are not checked: what is frozen is its own dictionary."""
+    """Return a copy of a frozen value with unchecked changes; the instance has a `__dict__`."""
     fields = vars(value) | changes
     if len(fields) != len(vars(value)):
         name, *_ = (name for name in changes if name not in vars(value))
@@ -177,10 +178,10 @@ def _copied(value: _Frozen, changes: dict[str, Any]) -> _Frozen:
 
 
 def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
-    """Tell what a module remembers that comes from the factory.
+    """Return the memory of a module from the factory.
 
-    Special: without a firmware it has the latest that the manual names. The I-7018BL, whose default is not documented,
-        has type 0E, the first that it can have (E35, assumption).
+    Special: without a firmware it has the latest in the manual. The I-7018BL, whose default is not documented, has type
+        0E, the first that it can have (E35, assumption).
     Manual: 1.9; E35, E83, E95, E113, E132.
 
     >>> factory(Model.I_7018).name, factory(Model.M_7017Z).protocol.name, factory(Model.I_7017F).report_settings.byte
@@ -209,9 +210,9 @@ def factory(model: Model, firmware: Firmware | None = None) -> Eeprom:
 
 @frozen(eq=False)
 class Inputs:
-    """The EEPROM as it was when something was last changed in it that readings depend on.
+    """The EEPROM at the last change of a field that readings depend on.
 
-    Special: it is equal to itself only, so that it can be looked up without a look at what is in it.
+    Special: it is equal only to itself, so that a cache lookup does not compare its fields.
     """
 
     eeprom: Eeprom
@@ -219,12 +220,12 @@ class Inputs:
 
 @frozen
 class State:
-    """A module with power; `Eeprom` and `Ram` are changed through `store` and `keep`."""
+    """A module with power; change `Eeprom` and `Ram` with `store` and `keep`."""
 
     eeprom: Eeprom
     ram: Ram
     profile: Profile = field(init=False, eq=False, repr=False)
-    """What a host would have to know to understand it, now."""
+    """The profile that a host needs now."""
 
     @profile.default
     def _profile(self) -> Profile:
@@ -240,16 +241,16 @@ class State:
         return Inputs(self.eeprom)
 
     clock: float = field(default=-LARGEST_FLOAT, kw_only=True, eq=False, repr=False)
-    """When it was last heard of, which makes no difference to what it is."""
+    """The time of the last call; it is not part of equality."""
 
     def __attrs_post_init__(self) -> None:
         check_seconds("clock", self.clock)
 
     def store(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Eeprom`
-        """Change the EEPROM.
+        """Return the state with changes to the EEPROM.
 
-        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for what no module can have
-            stored; only what changes is looked at.
+        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for values that no module can
+            have stored; only the changes are checked.
         """
         eeprom = _copied(self.eeprom, changes)
         if "model" in changes:  # by which nearly everything is measured
@@ -265,9 +266,9 @@ class State:
         return _state(eeprom, self.ram, profile, inputs, self.clock)
 
     def keep(self, **changes: Any) -> "State":  # noqa: ANN401 - fields of `Ram`
-        """Change the RAM.
+        """Return the state with changes to the RAM.
 
-        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for what it cannot hold.
+        Errors: `ArgumentError` for a field that it does not have; `InvalidValueError` for values that it cannot have.
         """
         ram = _copied(self.ram, changes)
         for name in changes:
@@ -277,13 +278,13 @@ class State:
         return _state(self.eeprom, ram, profile, self.inputs, self.clock)
 
     def switched(self, *, init_switch: bool) -> "State":
-        """Move the INIT switch, or INIT* terminal, while the power is on (E17)."""
+        """Return the state after the INIT switch, or INIT* terminal, is moved with the power on (E17)."""
         check_type("init_switch", init_switch, bool)
         return self.keep(init_switch=init_switch)
 
     @property
     def response_delay(self) -> float:
-        """Seconds that it waits before it answers; the setting is for Modbus only."""
+        """The seconds that the module waits before its response; the setting is for Modbus only."""
         return self.eeprom.response_delay / 1000 if self.ram.protocol is Protocol.MODBUS_RTU else 0.0
 
     @property
@@ -293,7 +294,7 @@ class State:
 
 
 def _state(eeprom: Eeprom, ram: Ram, profile: Profile, inputs: Inputs, clock: float) -> State:
-    """Make a state of which is known what `State` would have to find out."""
+    """Return a state with its derived attributes, without computing them."""
     state = object.__new__(State)
     object.__setattr__(state, "eeprom", eeprom)
     object.__setattr__(state, "ram", ram)
@@ -304,12 +305,12 @@ def _state(eeprom: Eeprom, ram: Ram, profile: Profile, inputs: Inputs, clock: fl
 
 
 def at(state: State, now: float) -> State:
-    """Move the clock on; what the time does is for `i7000.device.advance`."""
+    """Return the state with another clock time; `i7000.device.advance` has the effects of time."""
     return _state(state.eeprom, state.ram, state.profile, state.inputs, now)
 
 
 def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
-    """Give power to a module; with a running one's EEPROM, a power cycle.
+    """Return a module after power-on; with the EEPROM of a running module this is a power cycle.
 
     Special: with the INIT switch set it has address 00, 9600 baud, N81, no checksum and DCON; what is stored stays.
         Without power the data logger has recorded nothing.
@@ -337,7 +338,7 @@ def power_on(eeprom: Eeprom, *, init_switch: bool = False, now: float) -> State:
 
 
 def profile_of(eeprom: Eeprom, *, checksum: bool = False) -> Profile:
-    """Tell what a host would have to know of a module with this EEPROM."""
+    """Return the profile that a host needs for a module with this EEPROM."""
     return _profile(
         eeprom.model,
         eeprom.firmware.text,

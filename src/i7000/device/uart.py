@@ -1,7 +1,7 @@
-"""Characters on a line between two ends that may not be set alike (manual 1.11).
+"""Characters on a line between two ends with possibly different line settings (manual 1.11).
 
-Laws: what one end sends, an end with the same settings hears; another hears what sampling the levels of the line at its
-own speed gives, without the characters whose parity or stop bit is wrong. Errors are not heard.
+Laws: an end with the same settings receives what was sent. Another end receives what it samples from the levels of the
+line at its own speed. It drops characters with a wrong parity or stop bit.
 """
 
 from itertools import pairwise
@@ -21,7 +21,7 @@ _FASTEST = 1_000_000_000
 
 @frozen
 class Uart:
-    """How an end of a line sends and hears characters; every setting that a serial port can have.
+    """The settings of one end of a line; every setting that a serial port can have.
 
     Unit: `rate` in bits per second.
     Errors: `InvalidValueError`.
@@ -45,7 +45,7 @@ class Uart:
 
     @classmethod
     def of(cls, line: LineSettings) -> "Uart":
-        """Tell the settings of a module's line.
+        """Return the settings of a module's line.
 
         Errors: `InvalidValueError` for a baud rate that is not defined.
 
@@ -61,13 +61,13 @@ class Uart:
 
     @property
     def character_time(self) -> float:
-        """Seconds that a character takes."""
+        """The length of a character in seconds."""
         return (1 + self.data_bits + (self.parity != "N") + self.stop_bits) / self.rate
 
     def parity_bit(self, byte: int) -> int:
-        """Tell the parity bit of a character; 0 without parity.
+        """Return the parity bit of a character; 0 without parity.
 
-        Errors: `InvalidValueError` for what is no byte.
+        Errors: `InvalidValueError` for a value that is not a byte.
         """
         check_int("byte", byte)
         if not 0 <= byte <= 0xFF:
@@ -75,13 +75,13 @@ class Uart:
         return {"E": byte.bit_count() & 1, "O": ~byte.bit_count() & 1, "M": 1}.get(self.parity, 0)
 
     def sounds_like(self, other: "Uart") -> bool:
-        """Whether what one sends is what the other hears: stop bits are but the shortest silence."""
+        """Return whether one end receives what the other sends; stop bits are only a minimum silence."""
         check_type("other", other, Uart)
         return (self.rate, self.parity, self.data_bits) == (other.rate, other.parity, other.data_bits)
 
 
 def hear_at(data: bytes, sent: Uart, heard: Uart) -> bytes:
-    r"""Tell what an end that is set to `heard` makes of characters that one set to `sent` sends without a pause.
+    r"""Return what an end with settings `heard` receives if one with settings `sent` sends characters without a pause.
 
     >>> hear_at(b"$012\r", Uart(9600), Uart(9600, stop_bits=2)), hear_at(b"$012\r", Uart(9600), Uart(19200))
     (b'$012\r', b'\x98\xe0\xe6\x80')
@@ -94,7 +94,7 @@ def hear_at(data: bytes, sent: Uart, heard: Uart) -> bytes:
 
 
 Levels = list[tuple[int, float]]
-"""Levels of a line, each with the time from which on it holds."""
+"""The levels of a line, each with the time when it starts."""
 
 
 def _levels(data: bytes, uart: Uart) -> Levels:
@@ -114,7 +114,7 @@ def _levels(data: bytes, uart: Uart) -> Levels:
 
 
 def _sampled(levels: Levels, falls: list[float], uart: Uart) -> bytes:
-    """Sample each character in the middle of its bits, from the fall of its start bit on."""
+    """Sample each character in the middle of its bits, counted from the edge of its start bit."""
     heard = bytearray()
     free_at = 0.0
     place = 0

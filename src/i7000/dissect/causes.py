@@ -174,9 +174,11 @@ _NUMBERS_A_KIND = 9999
 
 def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
     """Yield that an address that no known module has is likely to be one in decimal, written as hex."""
-    if address is None or not knowledge.modules or address in knowledge.modules:
+    others = knowledge.others.given
+    given = [other for other, module in knowledge.modules.items() if module.given is not others]
+    if address is None or address in given:
         return
-    for other in knowledge.modules:
+    for other in given:
         if int(str(other), 16) == address:
             known = describe.address(other)
             yield f"no module at {describe.address(address)} is known, but one at {known}: in decimal?"

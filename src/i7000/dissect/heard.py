@@ -12,7 +12,7 @@ from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
 
-__all__ = ["Asked", "Direction", "Heard", "Line", "Place", "updated"]
+__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "following"]
 
 
 class Place(NamedTuple):
@@ -37,7 +37,7 @@ class Direction(StrEnum):
     """The adapter of the host, which hears what it sends."""
 
 
-@frozen
+@frozen(eq=False)
 class Heard:
     """What was made of a frame, or of bytes that are none."""
 
@@ -53,7 +53,7 @@ class Heard:
     same_as: Place | None = None
     """The frame of which it is an echo."""
     notes: tuple[str, ...] = ()
-    error: DecodeError | None = field(default=None, eq=str)
+    error: DecodeError | None = None
     """What is wrong with it."""
     candidates: tuple[Meaning, ...] = ()
     """What a frame would mean by itself that is wrong where it stands."""
@@ -78,6 +78,30 @@ class Asked:
     echoed: bool = False
 
 
+class Commands(NamedTuple):
+    """What was heard by DCON, as far as it matters for what comes next."""
+
+    asked: Asked | None = None
+    """The command that has no answer yet."""
+    unanswered: Asked | None = None
+    """The command before that, if it has none either."""
+    answered: Asked | None = None
+    """The command that was answered last, until the next one."""
+    answer: bytes = b""
+    """The response that was heard last."""
+
+
+class Requests(NamedTuple):
+    """What was heard by Modbus, as far as it matters for what comes next."""
+
+    asked: Asked | None = None
+    """The request that has no answer yet."""
+    in_step: bool = False
+    """Whether a request is what comes next."""
+    echoes: bool = False
+    """Whether the adapter hears what it sends."""
+
+
 @frozen(slots=False)  # so that a copy is one dictionary
 class Line:
     """Both sides of a line, as far as they were heard.
@@ -92,20 +116,8 @@ class Line:
     """Bytes that can still become a frame."""
     count: int = 0
     """The number of the last frame."""
-    asked: Asked | None = None
-    """The command by DCON that has no answer yet."""
-    unanswered: Asked | None = None
-    """The command by DCON before that, if it has none either."""
-    requested: Asked | None = None
-    """The request by Modbus that has no answer yet."""
-    answered: Asked | None = None
-    """The command by DCON that was answered last, until the next one."""
-    answer: bytes = b""
-    """The response by DCON that was heard last."""
-    in_step: bool = False
-    """Whether a request is what comes next by Modbus."""
-    echoes: bool = False
-    """Whether the adapter hears what it sends."""
+    commands: Commands = field(factory=Commands)
+    requests: Requests = field(factory=Requests)
 
     def __attrs_post_init__(self) -> None:
         check_fields(self, _KINDS)
@@ -116,19 +128,14 @@ _KINDS: dict[str, tuple[type, ...]] = {
     "protocol": (Protocol, NoneType),
     "rest": (bytes,),
     "count": (int,),
-    "asked": (Asked, NoneType),
-    "unanswered": (Asked, NoneType),
-    "requested": (Asked, NoneType),
-    "answered": (Asked, NoneType),
-    "answer": (bytes,),
-    "in_step": (bool,),
-    "echoes": (bool,),
+    "commands": (Commands,),
+    "requests": (Requests,),
 }
 """What each field of `Line` can be."""
 
 
-def updated(line: Line, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
-    """Return a line of which more was heard; its fields are not looked at again, as `evolve` would."""
-    copy = object.__new__(Line)
-    object.__setattr__(copy, "__dict__", {**line.__dict__, **changes})
-    return copy
+def following(line: Line, number: int, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
+    """Return a line after a frame of this number; its fields are not looked at again, as `evolve` would."""
+    after = object.__new__(Line)
+    object.__setattr__(after, "__dict__", {**line.__dict__, "count": number, **changes})
+    return after

@@ -4,13 +4,13 @@ One row a command: the facts, from the command and its response.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any
 
 from attrs import evolve, fields
 
 from i7000 import dcon, modbus
-from i7000.dissect.heard import Line, updated
-from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
+from i7000.dissect.known import Fact, Knowledge, Known, Module, fact_words, lacking_type
 from i7000.dissect.meaning import Item, Meaning
 from i7000.dissect.registers import items
 from i7000.models import Firmware, Model
@@ -20,33 +20,64 @@ from i7000.type_codes import TypeCode
 __all__ = ["learn", "with_facts"]
 
 
+_REMEMBERED = 256
+"""Answers of which it is kept whether they show something new."""
+
+
 def learn(
-    line: Line, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
-) -> tuple[Line, tuple[str, ...]]:
-    """Learn from a response of the module at an address; and say what of it contradicts what was known before."""
-    module = line.knowledge.of(address)
-    facts = {fact.name: fact for fact in _facts_of(meaning, module.known, where)}
-    profile = meaning.fit.profiles[0]
-    facts |= {name: Fact(name, getattr(profile, name), where=where) for name in shown}
+    knowledge: Knowledge, address: int, meaning: Meaning, where: str, shown: tuple[str, ...] = ()
+) -> tuple[Knowledge, tuple[str, ...]]:
+    """Learn from a response of the module at an address; and return what of it contradicts what was known before.
+
+    Shape: `where` it stands; `shown`, the facts that its form alone shows.
+    """
+    if not shown and type(meaning.command) not in _TEACHING:
+        return knowledge, ()
+    module = knowledge.of(address)
+    moved = _new_address(meaning)
+    if moved in (None, address) and not _has_news(meaning, module, shown):
+        return knowledge, ()
     learned, wrong = module, []
-    for fact in facts.values():
+    for fact in _all_facts(meaning, module, shown, where):
         before = module.facts.get(fact.name)
         contradiction = _contradiction(module, before, fact)
         if contradiction:
             wrong.append(contradiction)
-        if before is not None and before.changed:
-            fact = evolve(fact, changed=True)  # noqa: PLW2901 - what was given does not come back
-        if before is None or (before.value, before.changed) != (fact.value, fact.changed):
+        if _is_new(before, fact):
+            if before is not None and before.changed:
+                fact = evolve(fact, changed=True)  # noqa: PLW2901 - what was given does not come back
             after = learned.learn(fact)
             if after is learned:
                 wrong.append(_impossible(learned, fact))
             learned = after
     if learned is not module:
-        line = updated(line, knowledge=line.knowledge.put(address, learned))
-    moved = _new_address(meaning)
+        knowledge = knowledge.put(address, learned)
     if moved not in (None, address):
-        line = updated(line, knowledge=line.knowledge.move(address, moved))
-    return line, tuple(wrong)
+        knowledge = knowledge.move(address, moved)
+    return knowledge, tuple(wrong)
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _has_news(meaning: Meaning, module: Module, shown: tuple[str, ...]) -> bool:
+    """Return whether a response shows anything that is new, or contradicts what is known."""
+    for fact in _all_facts(meaning, module, shown, ""):
+        before = module.facts.get(fact.name)
+        if _is_new(before, fact) or _contradiction(module, before, fact):
+            return True
+    return False
+
+
+def _all_facts(meaning: Meaning, module: Module, shown: tuple[str, ...], where: str) -> Iterator[Fact]:
+    """Yield what a response shows, by its fields or by its form."""
+    facts = {fact.name: fact for fact in _facts_of(meaning, module.known, where)}
+    profile = meaning.fit.profiles[0]
+    facts |= {name: Fact(name, getattr(profile, name), where=where) for name in shown}
+    yield from facts.values()
+
+
+def _is_new(before: Fact | None, fact: Fact) -> bool:
+    """Return whether a fact adds anything: a change is one once only."""
+    return before is None or before.value != fact.value or fact.changed > before.changed
 
 
 _NAMING = ("name", "firmware", "models")
@@ -233,6 +264,9 @@ _SET: Mapping[type | None, _Row] = {
 
 # --- registers --------------------------------------------------------------------------------------------------------
 
+_AREAS_READ = (
+    modbus.ReadCoils, modbus.ReadDiscreteInputs, modbus.ReadHoldingRegisters, modbus.SetModuleAddress,
+)  # fmt: skip
 _WRITES = (modbus.WriteSingleCoil, modbus.WriteSingleRegister, modbus.WriteMultipleCoils, modbus.WriteMultipleRegisters)
 
 
@@ -260,3 +294,5 @@ _REGISTERS: Mapping[str | None, Callable[[Item, Known], _Pairs]] = {
     "channel_mask": lambda item, _: iter((("mask", item.value),)),
 }
 """The registers that decide how others, and frames, are read."""
+_TEACHING = frozenset((*_READ, *_SET, *_WRITES, *_AREAS_READ))
+"""The commands whose responses show something."""

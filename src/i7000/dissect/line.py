@@ -8,7 +8,7 @@ those before it. No bytes raise.
 """
 
 from i7000.arguments import as_bytes, check_type
-from i7000.dissect.heard import Heard, Line, Place, updated
+from i7000.dissect.heard import Heard, Line, Place, following
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_modbus
 from i7000.dissect.stream import split
@@ -47,10 +47,10 @@ def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tu
             line, heard = _hear(line, wire, protocol, _next(line, where))
         else:
             place = _next(line, where)
-            line = updated(line, count=place.number)
+            line = following(line, place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
-    return updated(line, rest=rest), tuple(found)
+    return following(line, line.count, rest=rest), tuple(found)
 
 
 def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None = None) -> tuple[Line, Heard]:
@@ -73,9 +73,10 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
 
 
 def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place) -> tuple[Line, Heard]:
-    line = updated(line, count=place.number)
     if not wire:
-        return line, Heard(place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame"))
+        return following(line, place.number), Heard(
+            place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame")
+        )
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place)
 
 

@@ -8,7 +8,7 @@ from i7000.dcon.frame import LONGEST_FRAME
 from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, updated
+from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, following
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -27,50 +27,61 @@ def hear_dcon(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
 
 
 def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
+    knowledge, (before, unanswered, _, answer) = line.knowledge, line.commands
     address = _dcon_address(wire)
-    read = _read_dcon(line.knowledge.of(address), wire, None)
-    before, notes = line.asked, (*read.notes, *address_notes(address, line.knowledge))
-    same = before is not None and before.wire == wire
-    if before is not None and same:
-        notes = (*notes, f"the same as {before.place.where}: an echo, or asked again")
+    read = _read_dcon(knowledge.of(address), wire, None)
+    notes = read.notes
+    if knowledge.modules:
+        notes = (*notes, *address_notes(address, knowledge))
+    same_as = None
+    if before is None or before.wire != wire:
+        unanswered = before
+    else:
+        same_as = before.place
+        notes = (*notes, f"the same as {same_as.where}: an echo, or asked again")
     asked = Asked(place, wire, address) if read.error is None else None
-    unanswered = line.unanswered if same else before
-    heard = Heard(
-        place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings,
-        same_as=before.place if before is not None and same else None,
-        notes=notes, error=read.error, contradictions=read.contradictions,
+    commands = Commands(asked, unanswered, None, answer)
+    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+        place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings, None, same_as, notes, read.error, (),
+        read.contradictions,
     )  # fmt: skip
-    return updated(line, asked=asked, unanswered=unanswered, answered=None), heard
 
 
 def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    asked = line.asked
+    knowledge, commands = line.knowledge, line.commands
+    asked, _, before, answer = commands
     address = _dcon_address(wire)
     if address is None and asked is not None:
         address = asked.address
-    module = line.knowledge.of(_sender(wire, address, asked))
+    module = knowledge.of(_sender(wire, address, asked))
     read = _read_dcon(module, wire, None if asked is None else asked.wire)
-    asked, read, more = _out_of_turn(line, module, wire, asked, read)
-    notes, contradictions = (*read.notes, *more), read.contradictions
-    if asked is None and line.answered is not None and _answers(module, wire, line.answered):
-        if wire == line.answer:
-            notes = (*notes, f"the same again: an answer to {line.answered.place.where} that was printed twice?")
+    notes, contradictions = read.notes, read.contradictions
+    late = commands.unanswered
+    if asked is not None and late is not None and read.error is not None and _answers(module, wire, late):
+        read, asked = _read_dcon(module, wire, late.wire), late
+        notes, contradictions = read.notes, read.contradictions
+        notes = (*notes, f"a late answer: {late.place.where} asked for it, before the last command")
+    elif asked is None and before is not None and _answers(module, wire, before):
+        if wire == answer:
+            notes = (*notes, f"the same again: an answer to {before.place.where} that was printed twice?")
         else:
-            second = f"a second answer to {line.answered.place.where}: two modules on one address?"
+            second = f"a second answer to {before.place.where}: two modules on one address?"
             contradictions = (*contradictions, second)
-    answered = asked is not None and read.answers
-    if answered or read.error is None:
-        line = updated(line, asked=None, unanswered=None, answered=asked if answered else line.answered, answer=wire)
+    answers = None
+    if asked is not None and read.answers:
+        answers, commands = asked.place, Commands(None, None, asked, wire)
+    elif read.error is None:
+        commands = Commands(None, None, before, wire)
     sender = _sender(wire, address, asked)
     if sender is not None and read.dropped:
-        line = updated(line, knowledge=line.knowledge.put(sender, module.without(read.dropped)))
+        knowledge = knowledge.put(sender, module.without(read.dropped))
     if sender is not None and read.error is None and len(read.meanings) == 1:
-        line, wrong = learn(line, sender, read.meanings[0], place.where, read.shown)
-        contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
-    return line, Heard(
-        place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings,
-        answers=asked.place if asked is not None and answered else None,
-        notes=notes, error=read.error, candidates=read.candidates, contradictions=contradictions,
+        knowledge, wrong = learn(knowledge, sender, read.meanings[0], place.where, read.shown)
+        if wrong:
+            contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
+    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+        place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings, answers, None, notes, read.error,
+        read.candidates, contradictions,
     )  # fmt: skip
 
 
@@ -79,17 +90,6 @@ def _sender(wire: bytes, address: int | None, asked: Asked | None) -> int | None
     if asked is not None and asked.wire[:1] == b"%" and asked.wire[3:5] == wire[1:3]:
         return asked.address
     return address
-
-
-def _out_of_turn(
-    line: Line, module: Module, wire: bytes, asked: Asked | None, read: "_Read"
-) -> tuple[Asked | None, "_Read", tuple[str, ...]]:
-    """Return what a response answers: if it cannot be the last command, the one before that, which has no answer."""
-    late = line.unanswered
-    if asked is None or late is None or read.error is None or not _answers(module, wire, late):
-        return asked, read, ()
-    note = f"a late answer: {late.place.where} asked for it, before the last command"
-    return late, _read_dcon(module, wire, late.wire), (note,)
 
 
 def _answers(module: Module, wire: bytes, asked: Asked) -> bool:

@@ -1,13 +1,13 @@
 """The listener's half by Modbus RTU: a frame -> what it means after those that were heard before it."""
 
+from collections.abc import Iterator
 from functools import lru_cache
-from typing import Any
 
 from attrs import evolve
 
 from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, updated
+from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, following
 from i7000.dissect.known import Known
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -17,6 +17,7 @@ from i7000.settings import Protocol
 
 __all__ = ["hear_modbus"]
 
+_NOTHING = ModbusRead(None)
 _READERS = 64
 """Combinations of what is known of a module, of which the readers are kept."""
 _ANOTHER = (Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION)
@@ -39,57 +40,65 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     Special: what is the same as the request before it is its response where it can be, unless the line is known to
         echo; a line is known to echo when a request came twice that cannot be its own response.
     """
-    address = wire[0]
-    module = line.knowledge.of(address or None)
+    address, knowledge = wire[0], line.knowledge
+    module = knowledge.of(address or None)
     reader, contradictions = _modbus_reader(module.known)
+    asked, in_step, echoes = line.requests
     if len(wire) > modbus.LONGEST_FRAME:
-        error = reader.request.__wrapped__(wire).error  # it is too long to be remembered
+        error: DecodeError | None = reader.request.__wrapped__(wire).error  # it is too long to be remembered
+        line = following(line, place.number, requests=Requests(None, in_step=False, echoes=echoes))
         causes = tuple(modbus_causes(wire, reader))
-        line = updated(line, requested=None, in_step=False)
-        return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, error=error, notes=causes)
-    asked = line.requested
-    response = ModbusRead(None)
+        return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, notes=causes, error=error)
+    response = _NOTHING
     if asked is not None and asked.meaning is not None and asked.address != modbus.BROADCAST:
-        asked_reader, _ = _modbus_reader(line.knowledge.of(asked.address).known)
+        asked_reader, _ = _modbus_reader(knowledge.of(asked.address).known)
         response = asked_reader.response(wire, asked.meaning)
+    direction: Direction | None = Direction.RESPONSE
+    meaning = response.meaning
+    error = None
+    notes: tuple[str, ...] = ()
+    answers = same_as = None
+    candidates: tuple[Meaning, ...] = ()
+    requests = line.requests
+    if asked and wire == asked.wire and not asked.echoed and (meaning is None or echoes):
+        requests = Requests(evolve(asked, echoed=True), in_step, echoes=True)
+        direction, meaning, same_as = Direction.ECHO, asked.meaning, asked.place
+        notes = (f"the same as {asked.place.where}: a 2-wire adapter's echo, or asked again",)
+    elif asked and meaning:
+        requests, answers = Requests(None, in_step=True, echoes=asked.echoed), asked.place
+        knowledge, wrong = learn(knowledge, address, meaning, place.where)
+        contradictions += wrong
+    else:
+        request, alone = reader.request(wire), reader.alone(wire)
+        if request.meaning:
+            direction, meaning = Direction.REQUEST, request.meaning
+            notes = tuple(_request_notes(request.meaning, alone.meaning, response.error, line))
+            requests = Requests(Asked(place, wire, address, meaning), address == modbus.BROADCAST, echoes)
+        elif alone.meaning and not response.error:
+            meaning, notes = alone.meaning, ("read without its request",)
+        else:
+            error, notes = response.error or request.error, tuple(modbus_causes(wire, reader))
+            if alone.meaning:
+                candidates = (alone.meaning,)
+            else:
+                direction = None
+                if len(wire) >= modbus.SHORTEST_FRAME:
+                    requests = Requests(None, in_step=False, echoes=echoes)
+    meanings: tuple[Meaning, ...] = ()
+    if meaning is not None:
+        meanings, notes = (with_facts(meaning, module),), meaning.notes + notes
+    return following(line, place.number, knowledge=knowledge, requests=requests), Heard(
+        place, wire, Protocol.MODBUS_RTU, direction, address, meanings, answers, same_as, notes, error, candidates,
+        contradictions,
+    )  # fmt: skip
 
-    def heard(direction: Direction | None, meaning: Meaning | None = None, **others: Any) -> Heard:  # noqa: ANN401
-        meanings = () if meaning is None else (with_facts(meaning, module),)
-        notes = (*(meaning.notes if meaning else ()), *others.pop("notes", ()))
-        wrong = (*contradictions, *others.pop("contradictions", ()))
-        return Heard(
-            place, wire, Protocol.MODBUS_RTU, direction, address, meanings, notes=notes, contradictions=wrong, **others
-        )
 
-    if asked and wire == asked.wire and not asked.echoed and (response.meaning is None or line.echoes):
-        line = updated(line, requested=evolve(asked, echoed=True), echoes=True)
-        same = f"the same as {asked.place.where}: a 2-wire adapter's echo, or asked again"
-        return line, heard(Direction.ECHO, asked.meaning, same_as=asked.place, notes=(same,))
-    if asked and response.meaning:
-        line = updated(line, requested=None, in_step=True, echoes=asked.echoed)
-        line, wrong = learn(line, address, response.meaning, place.where)
-        return line, heard(Direction.RESPONSE, response.meaning, answers=asked.place, contradictions=wrong)
-    request, alone = reader.request(wire), reader.alone(wire)
-    if request.meaning:
-        note = _doubt(alone.meaning, response.error, asked, in_step=line.in_step)
-        notes = (*((note,) if note else ()), *register_notes(request.meaning), *address_notes(address, line.knowledge))
-        answered = address != modbus.BROADCAST
-        line = updated(line, requested=Asked(place, wire, address, request.meaning), in_step=not answered)
-        return line, heard(Direction.REQUEST, request.meaning, notes=notes)
-    if alone.meaning and not response.error:
-        return line, heard(Direction.RESPONSE, alone.meaning, notes=("read without its request",))
-    if not alone.meaning and len(wire) >= modbus.SHORTEST_FRAME:
-        line = updated(line, requested=None, in_step=False)
-    candidates = (alone.meaning,) if alone.meaning else ()
-    direction = Direction.RESPONSE if alone.meaning else None
-    causes = tuple(modbus_causes(wire, reader))
-    return line, heard(direction, error=response.error or request.error, candidates=candidates, notes=causes)
-
-
-def _doubt(alone: Meaning | None, fault: DecodeError | None, asked: Asked | None, *, in_step: bool) -> str | None:
-    """Say what else a request could be."""
+def _request_notes(request: Meaning, alone: Meaning | None, fault: DecodeError | None, line: Line) -> Iterator[str]:
+    """Yield what has to be known of a request: what else it could be, and what is likely to be meant."""
+    asked, in_step, _ = line.requests
     if alone and asked and fault and fault.fault not in _ANOTHER:
-        return f"or a wrong response to {asked.place.where}: {fault}"
-    if alone and not asked and not in_step:
-        return f"or a response, {type(alone.message).__name__}, of which the request is not there"
-    return None
+        yield f"or a wrong response to {asked.place.where}: {fault}"
+    elif alone and not asked and not in_step:
+        yield f"or a response, {type(alone.message).__name__}, of which the request is not there"
+    yield from register_notes(request)
+    yield from address_notes(getattr(request.message, "address", None), line.knowledge)

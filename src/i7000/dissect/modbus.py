@@ -42,6 +42,7 @@ class ModbusReader:
     def __init__(self, known: Known) -> None:
         self._known = known
         self._profiles = known.modbus
+        self._fits: dict[tuple[int, ...], Fit] = {}
         remembered = lru_cache(maxsize=_REMEMBERED)
         self.request = remembered(self._request)
         self.response = remembered(self._response)
@@ -101,7 +102,8 @@ class ModbusReader:
         notes: tuple[str, ...] = ()
         if profile and availability in profile.refused:
             notes = (f"{profile.name} has no {message.title} by Modbus: {availability.scope}",)
-        return Meaning(message, request, Fit(found), readings, touched, facts, notes)
+        fit = self._fits.setdefault(tuple(map(id, found)), Fit(found))
+        return Meaning(message, request, fit, readings, touched, facts, notes)
 
     def _facts(self, profile: Profile) -> Iterator[Fact]:
         """Yield what readings rest on: what is known, and what they have by default."""

@@ -19,7 +19,7 @@ __all__ = ["Driver", "main"]
 
 
 class Driver:
-    """A port, and what is known of the line that it leads to; any number of tasks may ask."""
+    """A port and the state of its line; any number of tasks may send requests."""
 
     def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
         self.port, self.bus = port, bus
@@ -36,7 +36,7 @@ class Driver:
     @overload
     async def ask(self, command: dcon.Broadcast, profile: Profile) -> Sent: ...
     async def ask(self, command: Any, profile: Profile) -> Any:
-        """Send a command when it is its turn, and wait for its outcome; who no longer waits does not end it."""
+        """Send a command when it is its turn, and return its outcome; a cancelled task does not end the request."""
         return await asyncio.shield(self._ask(command, profile))
 
     async def _ask(self, command: AnyCommand, profile: Profile) -> Outcome[Any]:
@@ -57,7 +57,7 @@ class Driver:
                 self.outcome.set_exception(error)
 
     def _advance(self) -> None:
-        """Take what has come in, or that time has passed, and have this called again when it is to be."""
+        """Process received bytes or the time, and schedule the next call."""
         self.bus, events = receive(self.bus, self.port.read(self.port.in_waiting), self.loop.time())
         for event in events:
             if isinstance(event, Transmit):

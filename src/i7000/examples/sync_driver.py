@@ -1,4 +1,4 @@
-"""A driver that waits: pyserial and `i7000.host`, nothing else."""
+"""A blocking driver: pyserial and `i7000.host`, nothing else."""
 
 if __name__ == "__main__":  # before the imports, which take longer than all else
     from i7000_cli import end_at_ctrl_c
@@ -19,7 +19,7 @@ __all__ = ["Driver", "main"]
 
 
 class Driver:
-    """A port, and what is known of the line that it leads to."""
+    """A port and the state of its line."""
 
     def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
         self.port = port
@@ -33,7 +33,7 @@ class Driver:
     @overload
     def ask(self, command: dcon.Broadcast, profile: Profile) -> Sent: ...
     def ask(self, command: Any, profile: Profile) -> Any:
-        """Send a command and wait for its outcome."""
+        """Send a command and return its outcome."""
         self.bus, _ = receive(self.bus, self.port.read(self.port.in_waiting), monotonic())
         self.bus, wire = send(self.bus, command, profile, monotonic())
         self.port.write(wire)

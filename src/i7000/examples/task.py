@@ -1,4 +1,4 @@
-"""What the example drivers are told and what they print: the same for both."""
+"""The arguments and the output of the example drivers; the same for both."""
 
 import sys
 from argparse import ArgumentParser
@@ -16,12 +16,12 @@ __all__ = ["RD", "RM", "Task", "open_port", "program", "read_task"]
 
 RD = TypeVar("RD", bound=dcon.Response)
 RM = TypeVar("RM", bound=modbus.Response)
-"""The response of a command, by either protocol."""
+"""The response of a command of either protocol."""
 
 
 @frozen
 class Task:
-    """To read the inputs of a module."""
+    """The task of an example driver: read the inputs of a module."""
 
     port: str
     bus: Bus[Any]
@@ -29,9 +29,9 @@ class Task:
     command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters
 
     def show(self, outcome: Outcome[Any], refused: Rejected | Noise | None) -> int:
-        """Print the outcome, and the exit code of the program: 0 for an answer.
+        """Print the outcome, and return the exit code of the program: 0 for a response.
 
-        `refused` is the last that came in and was no answer: it often says why there is none.
+        `refused` is the last rejected frame: it often explains a timeout.
         """
         if not isinstance(outcome, Answered):
             print(outcome)  # noqa: T201 - what a program prints
@@ -55,7 +55,7 @@ class Task:
 
 
 def read_task(arguments: Sequence[str] | None = None) -> Task:
-    """Read the arguments of the command line."""
+    """Parse the arguments of the command line."""
     parser = ArgumentParser(description="Read the analog inputs of a module.")
     parser.add_argument("port", help="the serial port, or any URL that pyserial knows")
     parser.add_argument("--model", type=Model.find, required=True)

@@ -1,13 +1,13 @@
-"""The host's half of the conversation, for both protocols, without I/O and without a clock.
+"""The host side of both protocols, without I/O and without a clock.
 
-`send` opens a request on a `Bus` and returns the bytes to write; `receive` and `wake` return what came of it as events;
-`next_deadline` returns when to wake. A driver moves the bytes and sleeps.
+`send` opens a request on a `Bus` and returns the bytes to write. `receive` and `wake` return events. `next_deadline`
+returns the time to call `wake`. Your driver writes and reads the bytes, and sleeps.
 
-`Event` is what `receive` and `wake` return a tuple of: `Transmit`, bytes to write; an `Outcome`; or what else was on
-the line: `Rejected`, `Late`, or `i7000.Noise`, bytes that belong to no frame, frames with a wrong checksum among them.
+`receive` and `wake` return a tuple of `Event`: `Transmit` (bytes to write), an `Outcome`, or other traffic: `Rejected`,
+`Late`, or `i7000.Noise` (bytes that belong to no frame, including frames with a wrong checksum).
 
-`Outcome` is how a request ends, exactly once: `Answered`, `Declined`, `TimedOut`, or `Sent` if the request is for all
-modules. All of them are `Ended`, and have the request in `command`.
+Every request ends in exactly one `Outcome`: `Answered`, `Declined`, `TimedOut`, or `Sent` for a broadcast. All of them
+are subclasses of `Ended`, with the request in `command`.
 """
 
 from i7000.host.bus import Bus, Policy, next_deadline, receive, send, wake

@@ -1,12 +1,12 @@
-"""The state of a line and the four functions that drive it; all that depends on time is here (manual 2, 3).
+"""The state of a line and the four functions that drive it, with all timing (manual 2, 3).
 
-A driver moves bytes and sleeps: it writes what `send` and `Transmit` say, hands what it reads to `receive`, and calls
-`wake` when the time of `next_deadline` has come. Times are seconds of one clock that never goes back.
+A driver moves bytes and sleeps. It writes the bytes of `send` and `Transmit`, passes what it reads to `receive`, and
+calls `wake` at the time of `next_deadline`. Times are seconds of one clock that never goes back.
 
-Laws: one request is open at a time, and it ends in exactly one outcome, by `receive` or by `wake`. Nothing is taken for
-an answer but what came while the request was waiting for it: after a deadline the line is left silent for a while, so
-that a late response comes when it cannot be mistaken for that to the next request; ``>`` responses do not say whose
-they are. For this, what has come in has to be handed to `receive` before the next `send`.
+Laws: one request is open at a time, and it ends in exactly one outcome, by `receive` or by `wake`. Only frames that
+arrive while the request waits can answer it. After a deadline the line stays silent for a while: a late response that
+arrives then cannot be mistaken for the response to the next request (``>`` responses have no address). For this, pass
+all received bytes to `receive` before the next `send`.
 """
 
 from collections.abc import Iterable
@@ -33,17 +33,18 @@ RM = TypeVar("RM", bound=modbus.Response)
 
 _SILENT_CHARACTERS = 3.5
 _SHORTEST_SILENCE = 0.00175
-"""Seconds: what the Modbus specification has for lines faster than 19200."""
+"""The shortest silence in seconds: the value of the Modbus specification for lines faster than 19200."""
 
 
 @frozen(kw_only=True)
 class Policy:
-    """How long a host waits, and how often it asks again.
+    """The timeouts and retries of a host.
 
-    Shape: `retries` is how often a request without an answer is sent again: the module may then carry it out again.
-        `turnaround` is the time from the last character of a request to the first of its response: what the module
-        takes, which the manual does not say, its response delay (40488), and what adapters, operating system and
-        network add. `grace` is how long the line is left silent after a deadline: a later response can be mistaken.
+    Shape: `retries` is how often a request without a response is sent again; the module may then carry it out again.
+        `turnaround` is the longest time from the last character of a request to the first of its response. It includes
+        the time of the module (not in the manual), its response delay (40488), and the delays of adapters, operating
+        system and network. `grace` is how long the line stays silent after a deadline; a response that arrives even
+        later can be mistaken for another one.
     Unit: seconds.
     Range: 0 or more.
     Errors: `InvalidValueError` beyond the range.
@@ -66,46 +67,48 @@ class Policy:
 
 @frozen
 class Pending(Generic[R]):
-    """A request that has no outcome yet."""
+    """A request without an outcome yet."""
 
     exchange: Exchange[R]
     retries: int
-    """How often it may be sent again."""
+    """The number of retries left."""
     due: float
-    """When it goes out; once it has, its deadline."""
+    """The time to send the request; after that, its deadline."""
     latest: float = inf
-    """When it goes out even if the line is not silent."""
+    """The time to send the request even if the line is not silent."""
     sent: bool = False
     echoed: bool = False
-    """Whether its echo was heard, or none is expected."""
+    """Whether the echo was received, or none is expected."""
 
 
 @frozen
 class Bus(Generic[R]):
-    """A line with modules, R being the response that is waited for; a new one is ``Bus[Any]()``.
+    """A line with modules; R is the type of the expected response. A new one is ``Bus[Any]()``.
 
-    Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the rest is what happened.
+    Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the other fields are the
+        state.
     Errors: `InvalidValueError` for a field of another type, an undefined baud rate, and a time that is not finite.
     """
 
     line: LineSettings = field(factory=LineSettings)
     policy: Policy = field(factory=Policy)
     echo: bool = False
-    """Whether the adapter hears what it sends, as 2-wire ones may. Its echo is dropped, and nothing before it is an
-    answer. A Modbus write whose echo is not expected is answered by it, and so is `i7000.modbus.ReadChannelMask` if a
-    00 follows: with it the echo is a good answer."""
+    """Whether the adapter echoes sent bytes, as some 2-wire adapters do. The echo is dropped, and no frame before it is
+    accepted as the response. Without this setting, the echo of a Modbus write is accepted as its response, and so is
+    that of `i7000.modbus.ReadChannelMask` if a 00 follows: the echo is a valid response to them.
+    """
 
     pending: Pending[R] | None = None
     last: Exchange[Any] | None = None
-    """What was sent last: whose answer may still come."""
+    """The last request sent: its response may still arrive."""
     rest: bytes = b""
-    """What was heard and may still become a frame."""
+    """The received bytes that may still become a frame."""
     heard_at: float = -LARGEST_FLOAT
-    """When the last character ended that was on the line, sent or heard."""
+    """The end of the last character on the line, sent or received."""
     quiet_until: float = -LARGEST_FLOAT
-    """The end of the pause that is owed."""
+    """The end of the pause before the next request."""
     clock: float = field(default=-LARGEST_FLOAT, eq=False, repr=False)
-    """The time of the last call, which makes no difference to what it is."""
+    """The time of the last call; it is not part of equality."""
 
     def __attrs_post_init__(self) -> None:
         check_fields(self, _KINDS)
@@ -116,12 +119,12 @@ class Bus(Generic[R]):
 
     @property
     def character_time(self) -> float:
-        """Seconds that a character takes on the line."""
+        """The length of a character on the line in seconds."""
         return self.line.character_format.bits / BaudRate(self.line.baud_rate).bits_per_second
 
     @property
     def silence(self) -> float:
-        """Seconds between Modbus frames: 3.5 characters."""
+        """The silence between Modbus frames in seconds: 3.5 characters."""
         return max(_SILENT_CHARACTERS * self.character_time, _SHORTEST_SILENCE)
 
 
@@ -133,13 +136,13 @@ _KINDS: dict[str, tuple[type, ...]] = {
     "last": (Exchange, NoneType),
     "rest": (bytes,),
 }
-"""What each field of `Bus` can be that is not a time."""
+"""The types of the fields of `Bus` that are not times."""
 _TIMES = ("heard_at", "quiet_until", "clock")
 _FIELDS = (*_KINDS, *_TIMES)
 
 
 def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - fields of `Bus`
-    """Return a changed copy; what happens to a bus is not looked at again, as `evolve` would."""
+    """Return a changed copy without the checks of `evolve`."""
     copy = object.__new__(Bus)
     for name in _FIELDS:
         object.__setattr__(copy, name, changes[name] if name in changes else getattr(bus, name))
@@ -153,11 +156,12 @@ def send(bus: Bus[Any], command: modbus.Request[RM], profile: Profile, now: floa
 @overload
 def send(bus: Bus[Any], command: dcon.Broadcast, profile: Profile, now: float) -> tuple[Bus[Never], bytes]: ...
 def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tuple[Bus[Any], bytes]:
-    r"""Open a request, and tell the bytes to be written now: none if a pause is owed, then `wake` tells them later.
+    r"""Open a request and return the bytes to write now; empty during a pause, then `wake` returns them later.
 
-    Special: of a broadcast, `profile` tells only whether it has a checksum. What had begun to come in is forgotten.
+    Special: for a broadcast, only the checksum setting of `profile` is used. An incomplete frame received so far is
+        dropped.
     Errors: `EncodeError` if the module does not have the command; `InvalidValueError` for a time that is not finite;
-        `StateError` if the request before has no outcome yet, and for a time before that of the last call.
+        `StateError` if the previous request has no outcome yet, and for a time before the last call.
     Manual: 2, 3.
 
     >>> from i7000 import Model
@@ -188,10 +192,10 @@ def _still_open(request: Pending[Any], now: float) -> StateError:
 
 
 def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Take what has come in, all of it or any piece, and tell what it means.
+    """Process received bytes, in any pieces, and return the events.
 
     Shape: the events are in the order in which things happened.
-    Errors: `InvalidValueError` for a time that is not finite; `StateError` for one before that of the last call.
+    Errors: `InvalidValueError` for a time that is not finite; `StateError` for a time before the last call.
     Manual: 2, 3.
     """
     check_type("bus", bus, Bus)
@@ -213,7 +217,7 @@ def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R
 
 
 def wake(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Tell what the passing of time means; to be called when `next_deadline` has come, and harmless before.
+    """Return the events caused by the time; call it at `next_deadline`. Calling it earlier is harmless.
 
     >>> from i7000 import Model
     >>> bus, wire = send(Bus[Any](policy=Policy(retries=0)), dcon.HostOk(), Profile(Model.I_7018), 0.0)
@@ -224,7 +228,7 @@ def wake(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
 
 
 def next_deadline(bus: Bus[Any]) -> float | None:
-    """Tell when to call `wake`, whatever comes in or does not; None: never, no request is open."""
+    """Return the time to call `wake`, even if no byte arrives; None if no request is open."""
     check_type("bus", bus, Bus)
     return bus.pending.due if bus.pending else None
 
@@ -233,14 +237,14 @@ def next_deadline(bus: Bus[Any]) -> float | None:
 
 
 def _silence(bus: Bus[Any], exchange: Exchange[Any]) -> float:
-    """Tell the silence that `exchange` needs before it: that of RTU frames, and of what follows them."""
+    """Return the silence that `exchange` needs before it: before and after RTU frames."""
     return bus.silence if exchange.rtu or (bus.last and bus.last.rtu) else 0.0
 
 
 def _allowance(bus: Bus[Any], exchange: Exchange[Any]) -> float:
-    """Tell the time from when a request goes out to its deadline.
+    """Return the time from sending a request to its deadline.
 
-    Special: the Modbus specification wants time for the modules after a broadcast too.
+    Special: the Modbus specification requires time for the modules after a broadcast too.
     """
     characters = len(exchange.wire) + exchange.longest_response
     turnaround = bus.policy.turnaround if exchange.answered or exchange.rtu else 0.0
@@ -248,7 +252,7 @@ def _allowance(bus: Bus[Any], exchange: Exchange[Any]) -> float:
 
 
 def _transmit(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Transmit, ...]]:
-    """Send the open request if its time has come."""
+    """Send the open request if it is time."""
     if not bus.pending or bus.pending.sent or now < bus.pending.due:
         return bus, ()
     exchange = bus.pending.exchange
@@ -270,7 +274,7 @@ def _hear(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R],
 
 
 def _take_ahead(bus: Bus[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Take an answer that is held back by what could still become a longer frame: an echo, noise, the answer itself."""
+    """Accept a response that is held back because its bytes could still become a longer frame."""
     request = bus.pending
     if not (bus.rest and request and request.sent and request.echoed):
         return bus, ()
@@ -279,7 +283,7 @@ def _take_ahead(bus: Bus[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
 
 
 def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Tell what frames and noise are, in order."""
+    """Return the events of frames and noise, in order."""
     events: list[Event[R]] = []
     for frame in found:
         request = bus.pending
@@ -305,7 +309,7 @@ def _take(bus: Bus[R], found: Iterable[bytes | Noise]) -> tuple[Bus[R], tuple[Ev
 
 
 def _expire(bus: Bus[R], request: Pending[R]) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """End a try at its deadline: what came before it counts, even if nothing but silence shows that it is whole."""
+    """End an attempt at its deadline; frames that only the silence completes count."""
     if not request.sent:
         return bus, ()
     bus, events = _take(_changed(bus, rest=b""), finish(request.exchange, bus.rest, echo=bus.echo))

@@ -1,8 +1,7 @@
-"""What a host tells its driver: bytes to write, the outcome of a request, and what else was on the line.
+"""The events that a host returns to its driver: bytes to write, the outcome of a request, and other traffic.
 
-Laws: a request has exactly one outcome: `Answered`, `Declined`, `TimedOut` or `Sent`. Every byte that was heard is in
-an outcome, in an event of its own, in the echo that was dropped, or in what had begun to come in when a request went
-out.
+Laws: a request has exactly one outcome: `Answered`, `Declined`, `TimedOut` or `Sent`. Every received byte is in an
+outcome, in another event, in the dropped echo, or in an incomplete frame that was dropped when a request was sent.
 """
 
 from typing import Any, Generic, TypeVar
@@ -26,7 +25,7 @@ __all__ = [
 ]
 
 AnyCommand = dcon.AnyCommand | modbus.Request[Any]
-"""What a host sends, by either protocol."""
+"""The messages that a host sends, of either protocol."""
 
 R = TypeVar("R")
 """The response of a command."""
@@ -34,30 +33,30 @@ R = TypeVar("R")
 
 @frozen
 class Transmit:
-    """Bytes to be written to the line now: `wire`."""
+    """The bytes to write to the line now: `wire`."""
 
     wire: bytes
 
 
 @frozen
 class Ended:
-    """What all outcomes are: the end of a request, `command`."""
+    """The base class of outcomes: the end of a request, `command`."""
 
     command: AnyCommand
 
 
 @frozen
 class Answered(Ended, Generic[R]):
-    """The outcome of a request that was carried out: `command`, and the `response` to it."""
+    """The outcome of a request that was carried out: `command` and its `response`."""
 
     response: R
 
 
 @frozen
 class Declined(Ended):
-    """The outcome of a request that the module understood and did not carry out.
+    """The outcome of a request that the module understood but did not carry out.
 
-    Shape: `command`, and the `response`: a `i7000.dcon.Refused` or a `i7000.modbus.ExceptionResponse`.
+    Shape: `command` and `response`: a `i7000.dcon.Refused` or a `i7000.modbus.ExceptionResponse`.
     Manual: 2, 3.
     """
 
@@ -66,19 +65,19 @@ class Declined(Ended):
 
 @frozen
 class TimedOut(Ended):
-    """The outcome of a request, `command`, that has no answer, however often it was sent."""
+    """The outcome of a request, `command`, without a response, after all retries."""
 
 
 @frozen
 class Sent(Ended):
-    """The outcome of a request to all modules, `command`: it has gone out, and its pause is over; none answers."""
+    """The outcome of a broadcast, `command`: it was sent, and its pause is over."""
 
 
 @frozen
 class Rejected:
-    """A whole frame that came in time and is not the answer: of another module, or to another command.
+    """A complete frame that arrived in time but is not the response: from another module, or to another command.
 
-    Shape: `wire` is the frame, `fault` what is wrong with it as an answer, `reason` the same for people.
+    Shape: `wire` is the frame, `fault` the reason why it is not the response, `reason` the same in words.
     """
 
     wire: bytes
@@ -88,13 +87,13 @@ class Rejected:
 
 @frozen
 class Late:
-    """A whole frame, `wire`, that came when no answer was due, dropped: a late response, or one too many."""
+    """A complete frame, `wire`, that arrived when no response was due and is dropped: late or duplicate."""
 
     wire: bytes
 
 
 Outcome = Answered[R] | Declined | TimedOut | Sent
-"""How a request ends."""
+"""The outcomes of a request."""
 
 Event = Transmit | Answered[R] | Declined | TimedOut | Sent | Rejected | Late | Noise
-"""What can happen; `Noise` is bytes that belong to no frame, frames with a wrong checksum or CRC among them."""
+"""The events; `Noise` is bytes that belong to no frame, including frames with a wrong checksum or CRC."""

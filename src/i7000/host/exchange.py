@@ -1,6 +1,6 @@
-"""One request and what the line has to know of it, the same for both protocols.
+"""A request with all that the line needs for it; the same for both protocols.
 
-Laws: what depends on the protocol is here, what depends on time is in `i7000.host.bus`.
+Laws: protocol differences are here, timing is in `i7000.host.bus`.
 """
 
 from typing import Any, Generic, TypeVar
@@ -18,7 +18,7 @@ R = TypeVar("R")
 
 @frozen
 class Exchange(Generic[R]):
-    """A command and the profile of the module it is for, R being the response of the command."""
+    """A command and the profile of its module; R is the type of the response."""
 
     command: AnyCommand
     profile: Profile
@@ -27,7 +27,7 @@ class Exchange(Generic[R]):
 
     @classmethod
     def of(cls, command: AnyCommand, profile: Profile) -> "Exchange[R]":
-        """Write the frame.
+        """Encode the command.
 
         Errors: `EncodeError` of the codec.
         """
@@ -35,29 +35,29 @@ class Exchange(Generic[R]):
 
     @property
     def rtu(self) -> bool:
-        """Whether silence is what separates its frames."""
+        """Whether silence separates the frames of its protocol."""
         return isinstance(self.command, modbus.Request)
 
     @property
     def answered(self) -> bool:
-        """Whether it is for one module."""
+        """Whether a module answers it."""
         answered: bool = _codec(self.command).is_answered(self.command)
         return answered
 
     @property
     def longest_response(self) -> int:
-        """Bytes of the longest answer, a refusal or exception included; 0 if there is none."""
+        """The length in bytes of the longest response, a refusal or exception included; 0 for a broadcast."""
         longest: int = _codec(self.command).longest_response(self.command, self.profile)
         return longest
 
     @property
     def pause(self) -> float:
-        """Seconds that the module is to be left alone after the request."""
+        """The seconds to wait after the request."""
         pause: float = _codec(self.command).pause_after(self.command, self.profile)
         return pause
 
     def read(self, frame: bytes) -> Answered[R] | Declined:
-        """Read a frame as the answer.
+        """Decode a frame as the response.
 
         Errors: `DecodeError` for any other frame.
         """
@@ -68,7 +68,7 @@ class Exchange(Generic[R]):
 
 
 def _codec(command: AnyCommand) -> Any:  # noqa: ANN401 - a module
-    """Return the protocol of a command: both have functions of the same names."""
+    """Return the protocol module of a command; both have functions of the same names."""
     return modbus if isinstance(command, modbus.Request) else dcon
 
 
@@ -77,9 +77,9 @@ Found = tuple[bytes | Noise, ...]
 
 
 def split(last: Exchange[Any] | None, heard: bytes, *, echo: bool) -> tuple[Found, bytes]:
-    """Split what was heard into whole frames, noise and the rest that may still become a frame.
+    """Split received bytes into complete frames, noise and the rest that may still become a frame.
 
-    Shape: in the protocol of the last request, since only a module that was asked says something.
+    Shape: uses the protocol of the last request, because modules only answer.
     """
     if last is not None and last.rtu:
         return modbus.split(heard, _side(echo=echo), last.profile)
@@ -87,7 +87,7 @@ def split(last: Exchange[Any] | None, heard: bytes, *, echo: bool) -> tuple[Foun
 
 
 def answers(pending: Exchange[Any], rest: bytes) -> tuple[Found, bytes]:
-    """Find whole answers to an open request in a rest; if there are none, all of it is still the rest."""
+    """Return the complete responses to an open request in a rest, and the new rest."""
     if not pending.rtu or not pending.answered:
         return (), rest
     command: Any = pending.command
@@ -96,7 +96,7 @@ def answers(pending: Exchange[Any], rest: bytes) -> tuple[Found, bytes]:
 
 
 def finish(last: Exchange[Any], rest: bytes, *, echo: bool) -> Found:
-    """Split a rest that is waited for no longer: what is not finished is noise."""
+    """Split a rest without waiting for more bytes: an incomplete frame is noise."""
     if last.rtu:
         return modbus.flush(rest, _side(echo=echo), last.profile)
     return (Noise(rest, Fault.TERMINATOR),) if rest else ()

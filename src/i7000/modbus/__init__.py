@@ -1,8 +1,8 @@
 """The Modbus RTU protocol (manual 3): every request and response, and the functions that write and read them.
 
-`encode` and `decode_response` are the host's side, `decode_request` and `encode` the module's; `split` and `flush` find
-frames in what a line delivers; `RegisterMap` knows what stands at which address. All that their modules name in
-`__all__` is public, and is found here.
+A host uses `encode` and `decode_response`; a simulated module uses `decode_request` and `encode`. `split` and `flush`
+find frames in received bytes. `RegisterMap` is the address map of a module. Every name in `__all__` of the submodules
+is public and can be imported from here.
 """
 
 from i7000.modbus import (

@@ -1,6 +1,6 @@
 """Function 46h, the channels: types, mask, filter and fast mode (manual 3.3.5, 3.3.6, 3.3.8 to 3.3.11).
 
-Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+Laws: reserved bytes are zero. A `result` of 0 means that a setting was made; other values are not documented (E90).
 """
 
 from typing import Annotated
@@ -34,7 +34,7 @@ FILTER_BIT, FAST_MODE_BIT = 0x80, 0x20
 
 
 def _check_channel(channel: int, profile: Profile, section: str) -> None:
-    """Refuse a channel that the module does not have, or cannot set by itself."""
+    """Raise `EncodeError` for a channel that the module does not have, or cannot set individually."""
     if channel and not profile.individually_configurable:
         raise EncodeError("channel", channel, f"0..0: {profile.model.value}", section)
     profile.check_channel(channel, section)
@@ -42,7 +42,7 @@ def _check_channel(channel: int, profile: Profile, section: str) -> None:
 
 @frozen
 class TypeCodeSetting(Response):
-    """Tell the type of a channel.
+    """The type of a channel.
 
     Wire: ``46 07 type_code``
     Manual: 3.3.5; E60.
@@ -57,7 +57,7 @@ class TypeCodeSetting(Response):
 
 @frozen
 class ReadTypeCode(Request[TypeCodeSetting]):
-    """Ask for the type of a channel; of channel 0 where all have the same.
+    """A request to read the type of a channel; channel 0 if all channels have the same type.
 
     Wire: ``46 07 00 channel`` -> ``46 07 type_code``
     Errors: `EncodeError` for a channel that the module does not have.
@@ -72,12 +72,12 @@ class ReadTypeCode(Request[TypeCodeSetting]):
     channel: items.Byte
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         _check_channel(self.channel, profile, self.section)
 
 
 class TypeCodeResult(SettingResult):
-    """Tell whether the type of a channel was set.
+    """The result of setting the type of a channel.
 
     Wire: ``46 08 result``
     Manual: 3.3.6; E60, E64.
@@ -90,7 +90,7 @@ class TypeCodeResult(SettingResult):
 
 @frozen
 class SetTypeCode(Request[TypeCodeResult]):
-    """Set the type of a channel; with channel 0 of all where they have the same.
+    """A request to set the type of a channel; channel 0 sets all channels if they have the same type.
 
     Wire: ``46 08 00 channel type_code`` -> ``46 08 result``
     Errors: `EncodeError` for a channel or type that the module does not have.
@@ -106,17 +106,17 @@ class SetTypeCode(Request[TypeCodeResult]):
     type_code: items.TypeCodeByte
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel or type that the module does not have."""
+        """Raise `EncodeError` for a channel or type that the module does not have."""
         _check_channel(self.channel, profile, self.section)
         profile.check_type_code(self.type_code, self.section)
 
 
 @frozen
 class ChannelMask(Response):
-    """Tell which channels are on.
+    """The mask of the channels that are on.
 
     Wire: ``46 25 mask:mask``
-    Shape: a bit a channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
+    Shape: a bit for each channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
     Manual: 3.3.8; E12, E61.
     """
 
@@ -127,16 +127,16 @@ class ChannelMask(Response):
     mask: items.Mask
 
     def reserved_bits(self, request: "ReadChannelMask", profile: Profile) -> int:  # noqa: ARG002 - of the module
-        """Tell the bits that should be zero and are not: of channels that the module does not have."""
+        """Return the set bits that should be zero: those of channels that the module does not have."""
         return self.mask >> profile.channels
 
     def check(self, profile: Profile) -> None:
-        """Refuse channels that the module does not have."""
+        """Raise `EncodeError` for channels that the module does not have."""
         profile.check_mask(self.mask, self.section)
 
 
 class ReadChannelMask(Request[ChannelMask]):
-    """Ask which channels are on.
+    """A request to read which channels are on.
 
     Wire: ``46 25`` -> ``46 25 mask:mask``
     Manual: 3.3.8; E12, E61.
@@ -149,7 +149,7 @@ class ReadChannelMask(Request[ChannelMask]):
 
 
 class ChannelMaskResult(SettingResult):
-    """Tell whether channels were switched.
+    """The result of switching channels on and off.
 
     Wire: ``46 26 result``
     Manual: 3.3.9; E12, E61, E97.
@@ -162,10 +162,10 @@ class ChannelMaskResult(SettingResult):
 
 @frozen
 class SetChannelMask(Request[ChannelMaskResult]):
-    """Switch channels on and off.
+    """A request to switch channels on and off.
 
     Wire: ``46 26 mask:mask`` -> ``46 26 result``
-    Shape: a bit a channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
+    Shape: a bit for each channel, in 1, 2 or 3 bytes by model, high byte first (assumption).
     Errors: `EncodeError` for a channel that the module does not have.
     Manual: 3.3.9; E12, E61, E97.
     """
@@ -178,7 +178,7 @@ class SetChannelMask(Request[ChannelMaskResult]):
     mask: items.Mask
 
     def check(self, profile: Profile) -> None:
-        """Refuse channels that the module does not have."""
+        """Raise `EncodeError` for channels that the module does not have."""
         profile.check_mask(self.mask, self.section)
 
 
@@ -196,7 +196,7 @@ _SettingsByte = Annotated[int, items.byte(_settings)]
 
 @frozen
 class MiscellaneousSettings(Response):
-    """Tell filter and fast mode.
+    """The filter and the fast mode.
 
     Wire: ``46 29 settings``
     Shape: bit 7 set rejects 50 Hz, else 60 Hz; bit 5 is fast mode; the others are zero.
@@ -220,12 +220,12 @@ class MiscellaneousSettings(Response):
         return bool(self.settings & FAST_MODE_BIT)
 
     def reserved_bits(self, request: "ReadMiscellaneousSettings", profile: Profile) -> int:  # noqa: ARG002 - of none
-        """Tell the bits that should be zero and are not."""
+        """Return the set bits that should be zero."""
         return self.settings & ~(FILTER_BIT | FAST_MODE_BIT)
 
 
 class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
-    """Ask for filter and fast mode.
+    """A request to read the filter and the fast mode.
 
     Wire: ``46 29`` -> ``46 29 settings``
     Manual: 3.3.10; E43, E88.
@@ -238,7 +238,7 @@ class ReadMiscellaneousSettings(Request[MiscellaneousSettings]):
 
 
 class MiscellaneousSettingsResult(SettingResult):
-    """Tell whether filter and fast mode were set.
+    """The result of setting the filter and the fast mode.
 
     Wire: ``46 2A result``
     Manual: 3.3.11; E43, E88.
@@ -251,7 +251,7 @@ class MiscellaneousSettingsResult(SettingResult):
 
 @frozen
 class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
-    """Set filter and fast mode.
+    """A request to set the filter and the fast mode.
 
     Wire: ``46 2A settings`` -> ``46 2A result``
     Shape: bit 7 set rejects 50 Hz, else 60 Hz; bit 5 is fast mode; the others are zero.
@@ -267,7 +267,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
     settings: _SettingsByte
 
     def check(self, profile: Profile) -> None:
-        """Refuse bits that the module does not have."""
+        """Raise `EncodeError` for bits that the module does not have."""
         bits = FILTER_BIT * profile.has_filter | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(

@@ -1,7 +1,7 @@
-"""Messages <-> RTU frames: the functions that `i7000.modbus` is about (manual 3).
+"""Functions that convert messages to RTU frames and back (manual 3).
 
-Laws: `encode` raises nothing but `EncodeError`, the decoders nothing but `DecodeError`; decoding what was encoded gives
-the message back. What a module could be sent decodes, even if this one would answer with an exception.
+Laws: `encode` raises only `EncodeError`; the decoders raise only `DecodeError`. Decoding an encoded message returns an
+equal message. Every request that some module accepts decodes, even if this module would answer with an exception.
 """
 
 from typing import Any, TypeVar
@@ -58,11 +58,11 @@ _BY_SUB_FUNCTION = {request.sub_function: request for request in REQUESTS if req
 
 
 def encode(message: Message, profile: Profile | None = None, *, force: bool = False) -> bytes:
-    """Write a request or a response as an RTU frame.
+    """Encode a request or a response as an RTU frame.
 
-    Special: with a profile, what the module does not have is refused, but for `force`. Masks need one for their length,
-        which even `force` cannot exceed.
-    Errors: `EncodeError` that tells the reason.
+    Special: with a profile, messages that the module does not have are refused unless `force` is set. Masks need a
+        profile for their length, which even `force` cannot exceed.
+    Errors: `EncodeError` with the reason.
     Manual: 3.
 
     >>> encode(ReadInputRegisters(0x01, 0, 8)).hex()
@@ -88,17 +88,17 @@ def encode(message: Message, profile: Profile | None = None, *, force: bool = Fa
 
 
 def is_answered(request: Request[Any]) -> bool:
-    """Return whether a module answers: not if the request is for all of them."""
+    """Return whether a module answers `request`: False for a broadcast."""
     if not isinstance(request, Request):
         check_type("request", request, Request)  # type: ignore[unreachable] # with types
     return request.address != BROADCAST
 
 
 def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
-    """Read a frame that a host sent to the module of `profile`.
+    """Decode a frame that a host sent to the module of `profile`.
 
-    Special: what the module does not have is read all the same: it answers with an exception.
-    Errors: `DecodeError`; `Fault.FUNCTION` and `SUB_FUNCTION` for what no module has.
+    Special: requests for what the module does not have are decoded; the module answers with an exception.
+    Errors: `DecodeError`; `Fault.FUNCTION` and `SUB_FUNCTION` for functions that no module has.
     Manual: 3; E94, E99.
 
     >>> from i7000 import Model
@@ -131,10 +131,10 @@ def decode_request(frame: bytes, profile: Profile) -> Request[Any]:
 
 
 def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | ExceptionResponse:
-    """Read the frame that answers `request`, and hold it against the request.
+    """Decode the response to `request`, and check it against the request.
 
-    Errors: `DecodeError`; `Fault.ADDRESS`, `FUNCTION` or `SUB_FUNCTION` for the answer to something else, `COUNT` for
-        other items than were asked for, `ECHO` for a write that is not repeated.
+    Errors: `DecodeError`; `Fault.ADDRESS`, `FUNCTION` or `SUB_FUNCTION` for the response to another request, `COUNT`
+        for a wrong number of items, `ECHO` for a write that is not repeated.
     Manual: 3.
 
     >>> from i7000 import Model
@@ -169,7 +169,7 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
 
 
 _SHORTEST_RESPONSE = 3
-"""Bytes of address and PDU: an exception."""
+"""The length of an exception: address and PDU, in bytes."""
 
 
 def _address_error(frame: bytes) -> DecodeError:
@@ -196,7 +196,7 @@ _READS_OF_BITS = (ReadCoils, ReadDiscreteInputs)
 
 
 def _held_against(request: Any, response: Any, frame: bytes, profile: Profile) -> Any:  # noqa: ANN401 - of any class
-    """Check the number of items against the request and the reserved bits; drop padding bits (E120)."""
+    """Check the number of items and the reserved bits against the request; drop padding bits (E120)."""
     if isinstance(request, _READS_OF_WORDS):
         if len(response.values) != request.count:
             raise _count_error(frame, 2 * request.count, request.section)
@@ -218,7 +218,7 @@ def _count_error(frame: bytes, count: int, section: str) -> DecodeError:
 
 
 def _check_echo(request: Request[Any], body: bytes, frame: bytes) -> None:
-    """Hold what a write repeats, which is the beginning of the request, against it."""
+    """Check what a write response repeats: the beginning of the request."""
     said = request.layout.encode(request, None)[: request.response.layout.fixed]
     if len(body) != len(said):
         allowed = f"{len(said)} bytes of address and PDU"
@@ -234,12 +234,12 @@ _EXCEPTION = len("AFE")
 _CRC = len("CC")
 _BROADCAST_PAUSE = 0.002
 _FACTORY_CALIBRATION = 271
-"""The coil 00272."""
+"""The address of coil 00272."""
 _FACTORY_CALIBRATION_PAUSE = 3.0
 
 
 def longest_response(request: Request[Any], profile: Profile) -> int:
-    """Return the bytes of the longest answer to `request`, CRC included; 0 for a broadcast.
+    """Return the length in bytes of the longest response to `request`, CRC included; 0 for a broadcast.
 
     >>> from i7000 import Model
     >>> longest_response(ReadInputRegisters(0x01, 0, 8), Profile(Model.M_7017))
@@ -255,9 +255,9 @@ def longest_response(request: Request[Any], profile: Profile) -> int:
 
 
 def pause_after(request: Request[Any], profile: Profile) -> float:
-    """Return how many seconds to leave the module alone after `request`.
+    """Return how many seconds to wait after `request` before the next one.
 
-    Time: 2 ms after broadcasts; 3 s after the calibration of the factory was loaded.
+    Time: 2 ms after broadcasts; 3 s after loading the factory calibration.
     Manual: 3.4.8, 3.4.9; E103.
 
     >>> from i7000 import Model

@@ -1,6 +1,6 @@
 """Function 46h, cold-junction compensation: offsets, switch, update (manual 3.3.12 to 3.3.17).
 
-Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+Laws: reserved bytes are zero. A `result` of 0 means that a setting was made; other values are not documented (E90).
 """
 
 from typing import Annotated
@@ -32,19 +32,19 @@ __all__ = [
 ]
 
 FIRST_CHANNEL = 0x80
-"""What channel 0 is where 0 is the module."""
+"""The number of channel 0 in `channel`, where 0 is the module."""
 
 
 _LOW_BYTE = 0xFF
 
 
 def offset_in_celsius(channel: int, offset: int) -> float:
-    """Tell what an offset is in degrees Celsius; `channel` is 0 for the module."""
+    """Return an offset in degrees Celsius; `channel` is 0 for the module."""
     return ((offset & 0xFF) - ((offset & 0x80) << 1)) / 10 if channel else offset / 100
 
 
 def check_offset_channel(sent: Message, channel: int, profile: Profile) -> None:
-    """Refuse what is neither the module nor one of its channels."""
+    """Raise `EncodeError` for a number that is neither the module nor one of its channels."""
     if channel and not 0 <= channel - FIRST_CHANNEL < profile.channels:
         allowed = f"00, 80..{FIRST_CHANNEL + profile.channels - 1:02X}: {profile.model.value}"
         raise EncodeError("channel", f"{channel:02X}", allowed, sent.section)
@@ -65,7 +65,7 @@ _OffsetChannel = Annotated[int, items.byte(_channel)]
 
 @frozen
 class CjcOffset(Response):
-    """Tell an offset of the cold-junction temperature.
+    """An offset of the cold-junction temperature.
 
     Wire: ``46 2B offset:2``
     Unit: counts of 0.01 degC for the module; of 0.1 degC for a channel, two's complement in the low byte (E62).
@@ -79,7 +79,7 @@ class CjcOffset(Response):
     offset: items.SignedWord
 
     def describe(self, request: message.Message | None = None) -> dict[str, str]:
-        """Return the fields in words: the unit of the offset is known from `request`."""
+        """Return the fields in words; the unit of the offset depends on `request`."""
         if isinstance(request, ReadCjcOffset):
             words = _offset(request.channel, self.offset)
         else:
@@ -87,18 +87,18 @@ class CjcOffset(Response):
         return Message.describe(self) | {"offset": words}
 
     def celsius(self, request: "ReadCjcOffset") -> float:
-        """Tell the offset in degrees Celsius, as the answer to `request`: of the module or of a channel."""
+        """Return the offset in degrees Celsius, as the response to `request`: of the module or of a channel."""
         check_type("request", request, ReadCjcOffset)
         return offset_in_celsius(request.channel, self.offset)
 
     def reserved_bits(self, request: "ReadCjcOffset", profile: Profile) -> int:  # noqa: ARG002 - of the channel
-        """Tell the bits that should be zero and are not: the high byte of the offset of a channel."""
+        """Return the set bits that should be zero: the high byte of the offset of a channel."""
         return self.offset & 0xFF00 if request.channel else 0
 
 
 @frozen
 class ReadCjcOffset(Request[CjcOffset]):
-    """Ask for the offset of the cold-junction temperature, of the module or a channel.
+    """A request to read the offset of the cold-junction temperature, of the module or a channel.
 
     Wire: ``46 2B channel`` -> ``46 2B offset:2``
     Shape: `channel` 00h is the module, 80h channel 0, 81h channel 1 and so on.
@@ -114,12 +114,12 @@ class ReadCjcOffset(Request[CjcOffset]):
     channel: _OffsetChannel
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have."""
+        """Raise `EncodeError` for a channel that the module does not have."""
         check_offset_channel(self, self.channel, profile)
 
 
 class CjcOffsetResult(SettingResult):
-    """Tell whether an offset was set.
+    """The result of setting an offset.
 
     Wire: ``46 2C result``
     Manual: 3.3.13; E62, E63, E85, E104.
@@ -132,7 +132,7 @@ class CjcOffsetResult(SettingResult):
 
 @frozen
 class SetCjcOffset(Request[CjcOffsetResult]):
-    """Set the offset of the cold-junction temperature, of the module or a channel.
+    """A request to set the offset of the cold-junction temperature, of the module or a channel.
 
     Wire: ``46 2C channel offset:2`` -> ``46 2C result``
     Shape: `channel` 00h is the module, 80h channel 0, 81h channel 1 and so on.
@@ -160,7 +160,7 @@ class SetCjcOffset(Request[CjcOffsetResult]):
         return offset_in_celsius(self.channel, self.offset)
 
     def check(self, profile: Profile) -> None:
-        """Refuse a channel that the module does not have, or an offset beyond its range."""
+        """Raise `EncodeError` for a channel that the module does not have, or an offset beyond its range."""
         check_offset_channel(self, self.channel, profile)
         if not self.channel:
             profile.check_cjc_offset(self.offset, self.section)
@@ -170,7 +170,7 @@ class SetCjcOffset(Request[CjcOffsetResult]):
 
 @frozen
 class CjcEnabled(Response):
-    """Tell whether the cold junction is compensated.
+    """The state of the cold-junction compensation: on or off.
 
     Wire: ``46 2D enabled``
     Manual: 3.3.14; E63.
@@ -184,7 +184,7 @@ class CjcEnabled(Response):
 
 
 class ReadCjcEnabled(Request[CjcEnabled]):
-    """Ask whether the cold junction is compensated.
+    """A request to read whether cold-junction compensation is on.
 
     Wire: ``46 2D 00`` -> ``46 2D enabled``
     Manual: 3.3.14; E63.
@@ -197,7 +197,7 @@ class ReadCjcEnabled(Request[CjcEnabled]):
 
 
 class CjcEnabledResult(SettingResult):
-    """Tell whether the compensation was switched.
+    """The result of switching cold-junction compensation.
 
     Wire: ``46 2E result``
     Manual: 3.3.15; E64.
@@ -210,7 +210,7 @@ class CjcEnabledResult(SettingResult):
 
 @frozen
 class SetCjcEnabled(Request[CjcEnabledResult]):
-    """Switch the compensation of the cold junction on or off.
+    """A request to switch cold-junction compensation on or off.
 
     Wire: ``46 2E 00 enabled`` -> ``46 2E result``
     Manual: 3.3.15; E64.
@@ -226,7 +226,7 @@ class SetCjcEnabled(Request[CjcEnabledResult]):
 
 @frozen
 class CjcUpdateSetting(Response):
-    """Tell whether the cold-junction temperature is being updated.
+    """The update setting of the cold-junction temperature: started, stopped or once.
 
     Wire: ``46 2F update``
     Manual: 3.3.16.
@@ -240,7 +240,7 @@ class CjcUpdateSetting(Response):
 
 
 class ReadCjcUpdate(Request[CjcUpdateSetting]):
-    """Ask whether the cold-junction temperature is being updated.
+    """A request to read whether the cold-junction temperature is being updated.
 
     Wire: ``46 2F`` -> ``46 2F update``
     Manual: 3.3.16.
@@ -253,7 +253,7 @@ class ReadCjcUpdate(Request[CjcUpdateSetting]):
 
 
 class CjcUpdateResult(SettingResult):
-    """Tell whether the update was set.
+    """The result of setting the update of the cold-junction temperature.
 
     Wire: ``46 30 result``
     Manual: 3.3.17; E64.
@@ -266,7 +266,7 @@ class CjcUpdateResult(SettingResult):
 
 @frozen
 class SetCjcUpdate(Request[CjcUpdateResult]):
-    """Start or stop the update of the cold-junction temperature, or update it once.
+    """A request to start or stop the update of the cold-junction temperature, or update it once.
 
     Wire: ``46 30 update`` -> ``46 30 result``
     Manual: 3.3.17; E64.

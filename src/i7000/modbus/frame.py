@@ -1,6 +1,6 @@
-"""The envelope of every Modbus RTU frame: address, PDU, CRC-16 (manual 3).
+"""The frame around every Modbus RTU message: address, PDU, CRC-16 (manual 3).
 
-Laws: `seal` and `unseal` are each other's inverse.
+Laws: `unseal` is the inverse of `seal`.
 """
 
 import struct
@@ -12,7 +12,7 @@ __all__ = ["LONGEST_FRAME", "SHORTEST_FRAME", "crc16", "seal", "unseal"]
 
 LONGEST_FRAME = 256
 SHORTEST_FRAME = 4
-"""Bytes of address, function and CRC. The shortest that a module answers has one more, an exception."""
+"""The length of address, function and CRC in bytes; the shortest response of a module, an exception, has one more."""
 
 _POLYNOMIAL = 0xA001
 _START = 0xFFFF
@@ -29,13 +29,13 @@ def _table_of_bytes() -> list[int]:
 
 
 _ONE = _table_of_bytes()
-"""What one byte does to the CRC."""
+"""The effect of one byte on the CRC."""
 _TWO: list[int] = []
-"""What two bytes do to it; made when first needed, and put here in one step: threads may race."""
+"""The effect of two bytes on the CRC; computed at the first use and assigned in one step, because threads may race."""
 
 
 class WordStructs(dict[int, struct.Struct]):
-    """So many words in one byte order, ``<`` or ``>``; made when first needed."""
+    """Structs for a number of words in one byte order, ``<`` or ``>``; made at the first use."""
 
     def __init__(self, order: str) -> None:
         super().__init__()
@@ -50,7 +50,7 @@ _PACK = struct.Struct("<H").pack
 
 
 def crc16(data: bytes) -> int:
-    """Compute the CRC-16 of Modbus; of a whole frame, CRC included, it is 0.
+    """Compute the CRC-16 of Modbus; that of a whole frame, CRC included, is 0.
 
     >>> f"{crc16(bytes.fromhex('010400000008')):04X}"
     'CCF1'
@@ -59,7 +59,7 @@ def crc16(data: bytes) -> int:
 
 
 def crc_of(data: bytes) -> int:
-    """Compute the CRC-16, as `crc16` does, without a look at the argument."""
+    """Compute the CRC-16, as `crc16` does, without checking the argument."""
     if not _TWO:
         pairs = [_ONE[low] ^ high for high in range(256) for low in range(256)]
         _TWO[:] = [crc >> 8 ^ _ONE[crc & 0xFF] for crc in pairs]
@@ -75,7 +75,7 @@ def crc_of(data: bytes) -> int:
 
 
 def seal(body: bytes) -> bytes:
-    """Make a frame of address and PDU: the CRC follows, low byte first.
+    """Make a frame from address and PDU: append the CRC, low byte first.
 
     >>> seal(bytes.fromhex("010400000008")).hex()
     '010400000008f1cc'
@@ -84,12 +84,12 @@ def seal(body: bytes) -> bytes:
 
 
 def sealed(body: bytes) -> bytes:
-    """Make a frame of address and PDU, as `seal` does, without a look at the argument."""
+    """Make a frame from address and PDU, as `seal` does, without checking the argument."""
     return body + _PACK(crc_of(body))
 
 
 def unseal(frame: bytes) -> bytes:
-    """Take address and PDU out of exactly one frame, the CRC verified and removed.
+    """Return address and PDU of exactly one frame; verify and remove the CRC.
 
     Errors: `DecodeError` with `Fault.LENGTH` or `CRC`.
     """

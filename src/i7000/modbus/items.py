@@ -1,6 +1,6 @@
-"""What the fields of Modbus messages can be: values, their range, how they stand on the wire, what they are in words.
+"""The fields of Modbus messages: their values, their ranges, their wire form, and their description in words.
 
-Laws: what an `Item` writes, it reads back as it was.
+Laws: an `Item` reads back every value that it writes.
 """
 
 from collections.abc import Callable
@@ -14,31 +14,31 @@ from i7000.type_codes import TypeCode
 
 
 class Item(NamedTuple):
-    """What a field of a PDU can be."""
+    """One field of a PDU: its values, and how it is written and read."""
 
     allowed: str
-    """Its values, for messages."""
+    """The allowed values, for messages."""
     accepts: Callable[[Any], bool]
-    """Whether the field can have this value."""
+    """Returns whether the field can have this value."""
     write: str = "{}"
-    """What is on the wire, as an expression of the field."""
+    """The wire form, as an expression of the field."""
     read: Callable[[Any], Any] | None = None
-    """The field from what is on the wire; `KeyError` where that means nothing."""
+    """Returns the field from its wire form; raises `KeyError` for an undefined one."""
     fault: Fault = Fault.VALUE
-    """What is wrong when `read` raises, or when what was read is not accepted."""
+    """The fault when `read` raises, or when the field is not accepted."""
     bounds: tuple[int, int] | None = None
-    """The range of a plain number: what is looked at before `accepts` is asked, which takes other kinds of int too."""
+    """The range of a plain number; checked before `accepts`, which accepts other kinds of int too."""
     most: int | None = None
-    """The most items of a sequence."""
+    """The maximum number of items of a sequence."""
     role: str = ""
-    """``first`` of several addresses, or the ``count`` of them; empty for any other field."""
+    """The role: ``first`` of several addresses, or the ``count`` of them; empty for any other field."""
     values: Any = None
-    """The type of its values where they are more than numbers or bytes: an enumeration, bool or settings."""
+    """The type of the values, if they are not plain numbers or bytes: an enumeration, bool or settings."""
     describe: Callable[[Any], str] = describe.value
-    """The value in words."""
+    """Returns the value in words."""
 
     def __repr__(self) -> str:
-        """What `help` shows beside a field: the values."""
+        """Return what `help` shows beside a field: the values."""
         return f"<{self.allowed}>"
 
 
@@ -47,7 +47,7 @@ def _number(low: int, high: int, fault: Fault = Fault.VALUE) -> Item:
 
 
 def byte(words: Callable[[int], str] = describe.hex_byte) -> Item:
-    """A byte that is a number, described with `words`."""
+    """Return an item for a byte that is a number, described with `words`."""
     return _number(0, 0xFF)._replace(describe=words)
 
 
@@ -89,7 +89,7 @@ def _bits(most: int) -> Item:
 
 
 MOST_BITS, MOST_WORDS, MOST_WRITTEN_BITS, MOST_WRITTEN_WORDS = 2000, 125, 1968, 123
-"""What one frame may ask for or carry."""
+"""The limits of what one frame can request or carry."""
 
 Address = Annotated[int, _number(0, 247)._replace(describe=describe.address)]
 NewAddress = Annotated[int, byte(describe.address)]

@@ -1,44 +1,44 @@
-"""One statement of a PDU -> its constructor, its encoder, its decoder, and its length.
+"""The compiler of Modbus message classes: from a PDU to a constructor, an encoder, a decoder and a length.
 
-A message class has its PDU in `pdu`: tokens with a blank between. Two hex digits are a literal byte, ``00`` a reserved
-one. Any other token is a field of the class, or follows from the sequence at the end: ``count`` is its number of items
-and ``bytes`` its number of bytes, where no field has that name. ``:2`` and ``:4`` give the bytes of a token, ``:mask``,
-``:bits`` and ``:words`` the form of one that has a length of its own. The first use of a class compiles its statement
-to straight-line code around one `struct.Struct`.
+A message class has its PDU in `pdu`: tokens separated by blanks. Two hex digits are a literal byte, ``00`` a reserved
+one. Any other token is a field of the class, or is computed from the sequence at the end: ``count`` is its number of
+items and ``bytes`` its number of bytes, unless a field has that name. ``:2`` and ``:4`` give the length of a token in
+bytes; ``:mask``, ``:bits`` and ``:words`` mark a token of variable length. At its first use, a class is compiled to
+straight-line code around one `struct.Struct`.
 
-Laws: the constructor takes exactly the values that a field's `Item` accepts; what is written is read back as it was.
+Laws: the constructor accepts exactly the values that a field's `Item` accepts; every message written can be read back.
 
 >>> from i7000 import modbus
 >>> print(modbus.SetTypeCode.layout.source)
 def construct(self, address, channel, type_code):
-    if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
-        refuse('address', address)
-    if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
-        refuse('channel', channel)
-    if not accepts_type_code(type_code):
-        refuse('type_code', type_code)
-    set_address(self, address)
-    set_channel(self, channel)
-    set_type_code(self, type_code)
+if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
+    refuse('address', address)
+if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
+    refuse('channel', channel)
+if not accepts_type_code(type_code):
+    refuse('type_code', type_code)
+set_address(self, address)
+set_channel(self, channel)
+set_type_code(self, type_code)
 <BLANKLINE>
 def encode(m, p):
-    return pack(m.address, 70, 8, 0, m.channel, m.type_code)
+return pack(m.address, 70, 8, 0, m.channel, m.type_code)
 <BLANKLINE>
 def decode(b, p):
-    if len(b) != 6:
-        fail(b, Fault.LENGTH, min(len(b), 6), '', 'address and PDU of 6 bytes')
-    address, literal_1, literal_2, literal_3, channel, type_code, = unpack(b)
-    if literal_3 != 0:
-        fail(b, Fault.RESERVED, 3, '', '00')
-    try:
-        type_code = read_type_code(type_code)
-    except KeyError:
-        fail(b, Fault.VALUE, 5, 'type_code', item_type_code.allowed)
-    m = new(message)
-    set_address(m, address)
-    set_channel(m, channel)
-    set_type_code(m, type_code)
-    return m
+if len(b) != 6:
+    fail(b, Fault.LENGTH, min(len(b), 6), '', 'address and PDU of 6 bytes')
+address, literal_1, literal_2, literal_3, channel, type_code, = unpack(b)
+if literal_3 != 0:
+    fail(b, Fault.RESERVED, 3, '', '00')
+try:
+    type_code = read_type_code(type_code)
+except KeyError:
+    fail(b, Fault.VALUE, 5, 'type_code', item_type_code.allowed)
+m = new(message)
+set_address(m, address)
+set_channel(m, channel)
+set_type_code(m, type_code)
+return m
 """
 
 import struct
@@ -85,19 +85,19 @@ class Token(NamedTuple):
     """One token of a PDU."""
 
     name: str
-    """The field it is for; empty for a literal."""
+    """The name of the field; empty for a literal."""
     form: str
-    """``B``, ``H`` or ``4s`` as of `struct`; or ``mask``, ``bits``, ``words``."""
+    """The form: ``B``, ``H`` or ``4s`` as of `struct`; or ``mask``, ``bits``, ``words``."""
     literal: int = 0
 
     @property
     def width(self) -> int:
-        """Bytes; 0 for a token that has a length of its own."""
+        """The length in bytes; 0 for a token of variable length."""
         return _WIDTHS.get(self.form, 0)
 
 
 def tokens_of(pdu: str) -> tuple[Token, ...]:
-    """Read a statement; the address stands before every PDU."""
+    """Return the tokens of a PDU; the address comes first."""
     tokens = [Token("address", "B")]
     for text in pdu.split(" "):
         name, _, form = text.partition(":")
@@ -114,17 +114,17 @@ class Layout:
 
     tokens: tuple[Token, ...]
     fixed: int
-    """Bytes of address and PDU without the token that has a length of its own."""
+    """The length in bytes of address and PDU, without the token of variable length."""
     tail: str
-    """The form of that token, or empty."""
+    """The form of the token of variable length; empty if there is no such token."""
     source: str
-    """Of the three functions."""
+    """The source code of the three functions."""
     construct: Callable[..., None]
-    """The constructor: it refuses values that no message of this class can have."""
+    """The constructor; it raises `EncodeError` for values that no message of this class can have."""
     encode: Callable[[Any, Profile | None], bytes]
-    """Message and profile -> address and PDU; `EncodeError` for a mask that has no profile, or is too long for it."""
+    """Encodes a message to address and PDU; `EncodeError` for a mask that is too long or has no profile."""
     decode: Callable[[bytes, Profile], Any]
-    """Address and PDU, and profile -> message; function and sub-function are known to be right; `DecodeError`."""
+    """Decodes address and PDU of known function and sub-function to a message; raises `DecodeError`."""
 
     @classmethod
     def compile(cls, message: Any) -> "Layout":  # noqa: ANN401 - a message class; those stand on this module
@@ -151,11 +151,11 @@ class _Statement(NamedTuple):
 
     items: dict[str, Item]
     fixed: tuple[Token, ...]
-    """The tokens before the one that has a length of its own."""
+    """The tokens before the one of variable length."""
     tail: Token
-    """That one; it has no form if there is none."""
+    """The token of variable length; it has no form if there is none."""
     keywords: frozenset[str]
-    """The fields that are given by keyword only."""
+    """The keyword-only fields."""
 
     @classmethod
     def of(cls, message: Any) -> "_Statement":  # noqa: ANN401 - a message class
@@ -166,11 +166,11 @@ class _Statement(NamedTuple):
         return cls(items, tuple(token for token in tokens if token.width), tail, keywords)
 
     def named(self, role: str) -> str:
-        """The field that has a role, or an empty string."""
+        """Return the field that has a role, or an empty string."""
         return next((name for name, item in self.items.items() if item.role == role), "")
 
     def follows(self, token: Token) -> bool:
-        """Whether a token is no field: what it is follows from the sequence at the end."""
+        """Return whether a token is computed from the sequence at the end."""
         return bool(token.name) and token.name not in self.items
 
 
@@ -225,7 +225,7 @@ def _encoder(statement: _Statement) -> Iterator[str]:
 
 
 def _decoder(statement: _Statement, size: int) -> Iterator[str]:
-    """Make the decoder: it looks at the length first, then at ranges, counts, reserved bytes and single values."""
+    """Yield the source of the decoder: it checks length, then ranges, counts, reserved bytes and single values."""
     items, fixed, tail, _ = statement
     names = [token.name or f"literal_{at}" for at, token in enumerate(fixed)]
     places = [sum(token.width for token in fixed[:at]) for at in range(len(fixed))]
@@ -263,13 +263,13 @@ def _decoder(statement: _Statement, size: int) -> Iterator[str]:
 
 
 def _beyond(first: str, count: str, at: int) -> Iterator[str]:
-    """Refuse a count of items, which stands at `at`, that leads beyond the last address."""
+    """Raise `DecodeError` for a count of items, at `at`, that goes beyond the last address."""
     yield f"    if {first} + {count} > {_ADDRESSES}:"
     yield f"        fail(b, Fault.RANGE, {at}, 'count', 'none beyond address 65535')"
 
 
 def _counted(statement: _Statement, size: int) -> Iterator[str]:
-    """Read what follows the byte count, the last of `size` bytes; a count of items may stand before it."""
+    """Decode what follows the byte count, the last of `size` bytes; a count of items may precede it."""
     name, words = statement.tail.name, statement.tail.form == "words"
     yield f"    if bytes != len(b) - {size}:"
     yield f"        fail(b, Fault.LENGTH, min(len(b), {size} + bytes), 'bytes', 'as many as follow')"

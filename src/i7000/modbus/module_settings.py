@@ -1,6 +1,6 @@
 """Function 46h, the module: name, firmware, address, line and protocol (manual 3.3.1 to 3.3.4, 3.3.7).
 
-Laws: reserved bytes are zero. A `result` of 0 says that a setting was made; other values are not documented (E90).
+Laws: reserved bytes are zero. A `result` of 0 means that a setting was made; other values are not documented (E90).
 """
 
 from i7000.availability import Availability
@@ -27,7 +27,7 @@ __all__ = [
 
 @frozen
 class ModuleName(Response):
-    """Tell the name of the series.
+    """The name of the series.
 
     Wire: ``46 00 name:4``
     Shape: 00 70 17 00 is the M-7017 series, 00 70 18 00 the M-7018, 00 70 19 00 the M-7019 series.
@@ -42,12 +42,12 @@ class ModuleName(Response):
 
     @property
     def series(self) -> str | None:
-        """The series, ``7019``; None for other bytes than those of a series."""
+        """The series, such as ``7019``; None for an unknown series."""
         return Model.series_of(self.name)
 
 
 class ReadModuleName(Request[ModuleName]):
-    """Ask for the name of the series.
+    """A request to read the name of the series.
 
     Wire: ``46 00`` -> ``46 00 name:4``
     Manual: 3.3.1; E75, E77.
@@ -60,7 +60,7 @@ class ReadModuleName(Request[ModuleName]):
 
 
 class ModuleAddressResult(SettingResult):
-    """Tell whether the address was set.
+    """The result of setting the address.
 
     Wire: ``46 04 result 00 00 00``
     Manual: 3.3.2; E82, E90.
@@ -73,7 +73,7 @@ class ModuleAddressResult(SettingResult):
 
 @frozen
 class SetModuleAddress(Request[ModuleAddressResult]):
-    """Set the address of the module.
+    """A request to set the address of the module.
 
     Wire: ``46 04 new_address 00 00 00`` -> ``46 04 result 00 00 00``
     Range: 1..247.
@@ -89,14 +89,14 @@ class SetModuleAddress(Request[ModuleAddressResult]):
     new_address: items.NewAddress
 
     def check(self, profile: Profile) -> None:  # noqa: ARG002 - the same for all
-        """Refuse an address that no module has."""
+        """Raise `EncodeError` for an address that no module has."""
         if not 1 <= self.new_address <= LAST_ADDRESS:
             raise EncodeError("new_address", self.new_address, f"1..{LAST_ADDRESS}", self.section)
 
 
 @frozen
 class CommunicationSettings(Response):
-    """Tell the line and protocol that hold after the next power-on.
+    """The line settings and the protocol after the next power-on.
 
     Wire: ``46 05 00 line_settings 00 00 00 protocol 00 00``
     Manual: 3.3.3; E44, E65.
@@ -111,7 +111,7 @@ class CommunicationSettings(Response):
 
 
 class ReadCommunicationSettings(Request[CommunicationSettings]):
-    """Ask for the line and protocol that hold after the next power-on.
+    """A request to read the line settings and the protocol after the next power-on.
 
     Wire: ``46 05 00`` -> ``46 05 00 line_settings 00 00 00 protocol 00 00``
     Manual: 3.3.3; E44, E65.
@@ -125,7 +125,7 @@ class ReadCommunicationSettings(Request[CommunicationSettings]):
 
 @frozen
 class CommunicationSettingsResult(Response):
-    """Tell whether line and protocol were set.
+    """The result of setting the line settings and the protocol.
 
     Wire: ``46 06 00 line_result 00 00 00 protocol_result 00 00``
     Manual: 3.3.4; E44, E65, E90, E91.
@@ -141,7 +141,7 @@ class CommunicationSettingsResult(Response):
 
 @frozen
 class SetCommunicationSettings(Request[CommunicationSettingsResult]):
-    """Set the line and protocol that hold after the next power-on.
+    """A request to set the line settings and the protocol after the next power-on.
 
     Wire: ``46 06 00 line_settings 00 00 00 protocol 00 00`` -> ``46 06 00 line_result 00 00 00 protocol_result 00 00``
     Errors: `EncodeError` for a baud rate or character format that the module does not have.
@@ -157,13 +157,13 @@ class SetCommunicationSettings(Request[CommunicationSettingsResult]):
     protocol: items.ProtocolByte
 
     def check(self, profile: Profile) -> None:
-        """Refuse a line that the module cannot have."""
+        """Raise `EncodeError` for line settings that the module does not have."""
         profile.check_line(self.line_settings, self.section)
 
 
 @frozen
 class FirmwareVersion(Response):
-    """Tell the firmware version.
+    """The firmware version.
 
     Wire: ``46 20 major minor build``
     Manual: 3.3.7; E67, E75.
@@ -179,12 +179,12 @@ class FirmwareVersion(Response):
 
     @property
     def firmware(self) -> Firmware | None:
-        """The version: B4.5 where the bytes are 0B, 04, 05 (assumption); None for bytes of no version."""
+        """The version: B4.5 for the bytes 0B, 04, 05 (assumption); None for invalid bytes."""
         return Firmware.from_bytes(bytes((self.major, self.minor, self.build)))
 
 
 class ReadFirmwareVersion(Request[FirmwareVersion]):
-    """Ask for the firmware version.
+    """A request to read the firmware version.
 
     Wire: ``46 20`` -> ``46 20 major minor build``
     Manual: 3.3.7; E67, E75.

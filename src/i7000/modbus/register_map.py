@@ -1,8 +1,8 @@
-"""Registers by name, with units: requests that read and write them, values of what comes back (manual 3.4).
+"""Registers by name, with units: requests to read and write them, and values from the responses (manual 3.4).
 
-Laws: a value that `RegisterMap.decode` gives is one that `RegisterMap.write` takes, if it is in the range of its
-register; what a module counts or notes itself can only be cleared. Nothing is clamped: a value between two counts, or
-beyond the range, is told as it is read and not written.
+Laws: `RegisterMap.write` accepts every value that `RegisterMap.decode` returns, if it is in the range of its register.
+Counters and states of a module can only be cleared. Nothing is clamped: values beyond the range or between two
+counts are decoded, but not written.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -35,9 +35,9 @@ from i7000.settings import is_int
 __all__ = ["Items", "Plan", "ReadItems", "RegisterMap"]
 
 Items = Coils | DiscreteInputs | HoldingRegisters | InputRegisters
-"""The responses that carry coils, inputs or registers."""
+"""The responses that contain coils, inputs or registers."""
 ReadItems = ReadCoils | ReadDiscreteInputs | ReadHoldingRegisters | ReadInputRegisters
-"""The requests for them."""
+"""The requests that read coils, inputs or registers."""
 
 _READERS: dict[Area, Any] = {
     Area.COIL: ReadCoils,
@@ -50,12 +50,13 @@ _FIRST_NUMBER, _LAST_NUMBER = 10001, 99999
 
 @frozen
 class RegisterMap:
-    """The address map of one module: what it has, by name and by number.
+    """The address map of one module: its coils, inputs and registers, by name and by number.
 
-    Shape: of a row with a value a channel, its name means all of them; a number or address, of the first too, means
-        the one that it is in: 30003 is channel 2, one value and no tuple. `channels` goes before both, and counts from
-        the first of the row. The log of the M-7017mC-16 has records in place of channels, of 18 registers each.
-    Errors: `EncodeError` for what the module does not have, what cannot be read or written, what a row cannot hold.
+    Shape: if a row has a value for each channel, its name selects all of them. A number or address selects one: 30003
+        is channel 2, a single value and not a tuple. `channels` overrides both, and counts from the first of the row.
+        The log of the M-7017mC-16 has records instead of channels, of 18 registers each.
+    Errors: `EncodeError` for registers that the module does not have or that cannot be read or written, and for values
+        that a row cannot contain.
     Manual: 3.4.1 to 3.4.9.
 
     >>> from i7000 import Model
@@ -76,15 +77,15 @@ class RegisterMap:
         return rows(self.profile)
 
     def __iter__(self) -> Iterator[Register]:
-        """Go through the rows, by area and address."""
+        """Iterate over the rows, by area and address."""
         return iter(self.rows)
 
     def find(self, key: str | int, area: Area | None = None) -> Register:
-        """Find a row by its name, by the manual's number of one of its items, or by the address of one.
+        """Return a row by its name, by the manual's number of one of its items, or by the address of one.
 
         Shape: numbers are ints from 10001 on, or five digits as text (coils: ``"00257"``); lower ints are addresses, of
-            holding registers where `area` does not say otherwise. Of the two rows of a reading, its name finds the
-            input.
+            holding registers unless `area` is given. The name of a reading finds its input register, not its holding
+            register.
         """
         check_type("key", key, str, int)
         check_type("area", area, Area, optional=True)
@@ -101,9 +102,9 @@ class RegisterMap:
         raise EncodeError("register", key, names, "3.4", f"{self.profile.name} has no register {shown(key)}")
 
     def read(self, address: int, key: str | int, *, channels: range | None = None) -> ReadItems:
-        """Make the request that reads a row, or some channels of it.
+        """Return the request that reads a row, or some of its channels.
 
-        Special: of a row for more channels than the connecting mode has, those that it has; no readings of others.
+        Special: if a row has more channels than the connecting mode, only the channels of the mode are read.
         """
         row = self.find(key)
         if row.access is Access.WRITE:
@@ -125,10 +126,10 @@ class RegisterMap:
         channels: range | None = None,
         big_endian: bool = False,
     ) -> Request[Any]:
-        """Make the request that writes a row, or some channels of it.
+        """Return the request that writes a row, or some of its channels.
 
-        Shape: `value` is what `decode` gives: one value for one item, a tuple or list for several. A bool is for coils,
-            a member of an enumeration for the rows that `decode` gives it for.
+        Shape: `value` is what `decode` returns: one value for one item, a tuple or list for several. Coils take a bool;
+            coded settings take a member of their enumeration.
         Special: `big_endian` as in `decode`. ``host_watchdog_timeout_count`` can only be cleared, by 0, and
             ``host_watchdog_timed_out`` by 1.
         """
@@ -151,16 +152,16 @@ class RegisterMap:
     def decode(
         self, key: str | int, items: Iterable[int], *, channels: range | None = None, big_endian: bool = False
     ) -> Any:  # noqa: ANN401 - what the row holds
-        """Tell what was read of a row, or of some channels of it: the `values` of the response.
+        """Return the values of a row, or of some of its channels, from the `values` of the response.
 
-        Shape: a row of one item, or one item of a row by its number, gives one value; all else a tuple, channel by
-            channel. Readings are `Reading`, coded settings members of their enumeration, the log of the M-7017mC-16
-            `LogRecord`.
+        Shape: a row of one item, or one item by its number, is returned as one value; everything else as a tuple,
+            channel by channel. Readings are `Reading`, coded settings members of their enumeration, the log of the
+            M-7017mC-16 `LogRecord`.
         Unit: that of the row.
-        Special: `big_endian` is what coil 00283 of the M-7017mC-16 says: the 32-bit values of clock and log have their
-            high word first; firmware version and module name never do (assumption; E75).
-        Errors: `DecodeError` for another number of items (`Fault.COUNT`), for what is no item (`NUMBER`: words are ints
-            0..65535, bits 0, 1 or bools), and for what is no value of the row; `wire` is empty.
+        Special: `big_endian` is the state of coil 00283 of the M-7017mC-16: the 32-bit values of clock and log have
+            their high word first; firmware version and module name never do (assumption; E75).
+        Errors: `DecodeError` for a wrong number of items (`Fault.COUNT`), for an invalid item (`NUMBER`: words are ints
+            0..65535, bits 0, 1 or bools), and for an invalid value of the row; `wire` is empty.
         """
         check_type("big_endian", big_endian, bool)
         row = self.find(key)
@@ -169,9 +170,9 @@ class RegisterMap:
         return values[0] if one else values
 
     def plan(self, address: int, keys: Iterable[str | int], *, big_endian: bool = False) -> "Plan":
-        """Plan to read several rows in few requests: neighbours go together, no map has more than a frame holds.
+        """Plan to read several rows in few requests: neighbours are read together, as far as one frame can carry them.
 
-        Errors: `EncodeError` too for two things of one name: the two rows of a reading, two channels.
+        Errors: also `EncodeError` for two values of one name: the two rows of a reading, two channels.
         """
         check_type("big_endian", big_endian, bool)
         wanted: dict[str, tuple[Register, ReadItems, str | int]] = {}
@@ -192,7 +193,7 @@ class RegisterMap:
         return Plan(tuple(requests), tuple(places), self, big_endian)
 
     def _span(self, row: Register, key: str | int, channels: range | None) -> tuple[int, int, bool]:
-        """Which values of a row are meant: the first, how many, and whether it is one by itself."""
+        """Return which values of a row are selected: the first, how many, and whether it is a single value."""
         most = row.count // row.kind.width
         if channels is not None:
             if (
@@ -219,7 +220,7 @@ def _amount(count: int, first: int) -> str:
 
 
 def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:
-    """The area and address that a number means; None for a name, or a number of no area."""
+    """Return the area and address of a number; None for a name, or a number of no area."""
     if isinstance(key, int) and key < _FIRST_NUMBER:
         return area or Area.HOLDING_REGISTER, key
     if not isinstance(key, str) and not is_int(key, _FIRST_NUMBER, _LAST_NUMBER):
@@ -232,7 +233,7 @@ def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:
 
 @frozen
 class Plan:
-    """Requests that read several rows, and how their responses become values.
+    """Requests that read several rows, and how to decode their responses.
 
     >>> from i7000 import Model
     >>> plan = RegisterMap(Profile(Model.M_7017)).plan(0x01, ["response_delay", "host_watchdog_timeout", "filter"])
@@ -244,16 +245,17 @@ class Plan:
 
     requests: tuple[ReadItems, ...]
     places: tuple[tuple[Register, int, int, int, str | int], ...]
-    """Of each row: the request that reads it, its first item in the response, how many, and the key that it has."""
+    """Places of the rows: the request that reads each, its first item in the response, its number of items, and its
+    key.
+    """
     registers: RegisterMap
     big_endian: bool
 
     def decode(self, responses: Sequence[Items | ExceptionResponse]) -> dict[str, Any]:
-        """Tell the values by name; an exception is the value of all that it refused.
+        """Return the values by name; the value of a row whose request was refused is the exception.
 
-        Errors: `InvalidValueError` for another number of responses than requests; `DecodeError` as for
-            `RegisterMap.decode`, and for what does not answer its request, silence (None) included:
-            `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
+        Errors: `InvalidValueError` for a wrong number of responses; `DecodeError` as for `RegisterMap.decode`, and for
+            a response that does not answer its request, or None: `Fault.FUNCTION`, `ADDRESS`, `COUNT`.
         """
         responses = as_tuple("responses", responses)
         for response in responses:
@@ -274,7 +276,7 @@ class Plan:
 
 
 def _check_response(request: ReadItems, response: Items | ExceptionResponse) -> None:
-    """Refuse what does not answer a request."""
+    """Raise `DecodeError` for a response that does not answer the request."""
     if isinstance(response, ExceptionResponse):
         answers = response.function == request.function
     else:

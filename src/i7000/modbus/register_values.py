@@ -1,7 +1,7 @@
-"""What the bits and words of a register mean: counts <-> values in units (manual 3.4, 3.5).
+"""Functions that convert the bits and words of a register to values in units and back (manual 3.4, 3.5).
 
-Laws: `counts_of` is the inverse of `values_of`, and refuses what the row cannot hold. An error of a decoder has no
-bytes in `wire` here: items come from a response, or from nowhere.
+Laws: `counts_of` is the inverse of `values_of`, and raises `EncodeError` for values that the row cannot contain.
+`DecodeError.wire` is empty here, because the functions take items and not bytes.
 """
 
 from collections.abc import Callable, Iterable
@@ -29,12 +29,12 @@ __all__ = ["LogRecord", "readings", "words"]
 
 _RECORD_READINGS = 16
 _NEARLY = 1e-6
-"""Of a count: what a value in a unit may be off by, being a double."""
+"""The rounding error that a value in a unit may have, in counts."""
 
 
 @frozen
 class LogRecord:
-    """A record of the data logger: what the 16 channels read, and when.
+    """A record of the data logger: the readings of the 16 channels, and their time.
 
     Unit: `time` in seconds, as the clock of the module counts them (E73).
     Manual: 3.4.3.
@@ -45,10 +45,10 @@ class LogRecord:
 
 
 def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tuple[Reading, ...]:
-    """Tell what the words of analog inputs mean, in the Modbus data format of the profile.
+    """Return the readings in the words of analog inputs, in the Modbus data format of the profile.
 
-    Shape: the first word is that of `channel`.
-    Errors: `DecodeError` with `Fault.NUMBER` for a channel whose type the profile does not have, or no int of 16 bits.
+    Shape: the first word belongs to `channel`.
+    Errors: `DecodeError` with `Fault.NUMBER` for a channel of unknown type, or a word that is not an int of 16 bits.
     Manual: 3.5, 1.11, A.5; E83.
 
     >>> from i7000 import Model
@@ -63,10 +63,10 @@ def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tup
 
 
 def words(values: Iterable[Reading], profile: Profile, *, channel: int = 0) -> tuple[int, ...]:
-    """Write the words of analog inputs: what `readings` tells, the other way round.
+    """Encode the words of analog inputs: the inverse of `readings`.
 
-    Shape: the first reading is that of `channel`.
-    Errors: `EncodeError` for a reading that its channel cannot have, and for a channel whose type is not known.
+    Shape: the first reading belongs to `channel`.
+    Errors: `EncodeError` for a reading that its channel cannot have, and for a channel of unknown type.
     Manual: 3.5, 1.11, A.5; E83.
 
     >>> from i7000 import Model, Unit
@@ -100,7 +100,7 @@ def _readings(values: tuple[int, ...], channel: int, profile: Profile) -> tuple[
 def values_of(  # noqa: PLR0913 - the row, and which values of it
     row: Register, items: tuple[int, ...], first: int, count: int, profile: Profile, *, big_endian: bool
 ) -> tuple[Any, ...]:
-    """Tell `count` values of a row, from its value `first` on."""
+    """Return `count` values of a row, beginning with value `first`."""
     width = row.kind.width
     if len(items) != count * width:
         allowed = f"{count * width} items, not {len(items)}"
@@ -122,7 +122,7 @@ def values_of(  # noqa: PLR0913 - the row, and which values of it
 
 
 def _check_items(name: str, items: tuple[int, ...], most: int) -> None:
-    """Refuse what no response has: an item that is no int of its range; a bit may be a bool."""
+    """Raise `DecodeError` for an invalid item: an int beyond its range; a bit may be a bool."""
     for at, item in enumerate(items):
         if not isinstance(item, int) or (isinstance(item, bool) and most > 1) or not 0 <= item <= most:
             raise DecodeError(Fault.NUMBER, b"", field=name, allowed=f"0..{most}, item {at} is none", section="3.4")
@@ -153,7 +153,7 @@ def _single(row: Register, item: int) -> Any:  # noqa: ANN401
 
 
 def _typed(row: Register, number: int) -> Any:  # noqa: ANN401
-    """The value that a number stands for; what is undefined stays the number, but for an enumeration of few codes."""
+    """Return the typed value of a number; undefined numbers stay ints, except where an enumeration has few codes."""
     if row.values is None:
         return number
     read = _TYPED.get(row.values, row.values)
@@ -171,7 +171,7 @@ _TYPED: dict[type, Callable[[int], Any]] = {
     Firmware: lambda number: None if number >> 24 else Firmware.from_bytes(number.to_bytes(3, "big")),
     str: lambda number: Model.series_of(number.to_bytes(4, "big")),
 }
-"""How the types of values are read that are no enumerations of few codes."""
+"""How numbers become values of the types that are not enumerations of few codes."""
 
 
 def _counts_per_unit(row: Register) -> int:
@@ -179,7 +179,7 @@ def _counts_per_unit(row: Register) -> int:
 
 
 def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) -> tuple[int, ...]:  # noqa: ANN401
-    """Tell the items that hold a value: one, or the two of a 32-bit number."""
+    """Return the items of a value: one, or the two of a 32-bit number."""
     number = _number_of(row, value)
     scale = _counts_per_unit(row)
     counts = round(number * scale)
@@ -202,7 +202,7 @@ def counts_of(row: Register, value: Any, profile: Profile, *, big_endian: bool) 
 
 
 def _number_of(row: Register, value: Any) -> int | float:  # noqa: ANN401
-    """Tell the number that a value is or stands for; bools are for coils, names for the rows that have them."""
+    """Return the number of a value; coils take bools, rows with an enumeration take its members."""
     if isinstance(value, LineSettings | Firmware) and isinstance(value, row.values or ()):
         return value.byte if isinstance(value, LineSettings) else int.from_bytes(bytes(value), "big")
     own = isinstance(value, Enum) and isinstance(value, row.values or ())

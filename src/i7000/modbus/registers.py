@@ -1,7 +1,7 @@
-"""What stands at which address: the maps of the manual as rules on the model and its firmware (manual 3.1, 3.2, 3.4).
+"""The address maps of the manual, as rules on the model and its firmware (manual 3.1, 3.2, 3.4).
 
-Laws: a row of a map is computed here from what the model has; the nine maps as printed stand in ``spec/tables``. A
-thing has one name in every map, and a row for each of its numbers where the manual gives it two (30001 and 40001).
+Laws: the rows of a map are computed from the features of the model; ``spec/tables`` has the nine maps as printed. A
+setting has one name in every map, and a row for each of its numbers if the manual gives it two (30001 and 40001).
 """
 
 from collections.abc import Callable, Iterator
@@ -23,10 +23,10 @@ __all__ = ["Access", "Area", "Kind", "Register", "WordOrder"]
 
 
 class Area(Enum):
-    """A table of addresses: the digit that the manual puts before its numbers."""
+    """A table of addresses; the value is the digit that the manual puts before its numbers."""
 
     bits: bool
-    """Whether an item is one bit; else it is 16."""
+    """Whether an item is one bit; otherwise it is 16."""
 
     COIL = 0
     DISCRETE_INPUT = 1
@@ -39,10 +39,10 @@ for _area in Area:
 
 
 class Kind(Enum):
-    """How the bits or words of an item are a value."""
+    """How the bits or words of an item form a value."""
 
     width: int
-    """Items that one value takes."""
+    """The number of items of one value."""
 
     BOOL = "bool"
     READING = "reading"
@@ -64,7 +64,7 @@ for _kind in Kind:
 
 
 class Access(Enum):
-    """What can be done with an item."""
+    """What a host can do with an item: read it, write it, or both."""
 
     READ = "R"
     READ_WRITE = "R/W"
@@ -72,20 +72,21 @@ class Access(Enum):
 
 
 class WordOrder(Enum):
-    """Which of the two words of 32 bits comes first (E75)."""
+    """The order of the two words of a 32-bit value (E75)."""
 
     LOW_FIRST = "low"
-    """The low word, whatever the module is set to."""
+    """The low word comes first, in every setting of the module."""
     SELECTED = "selected"
-    """The word that the coil ``big_endian`` selects: the low one unless it is set."""
+    """The coil ``big_endian`` decides: the low word comes first unless it is set."""
 
 
 @frozen
 class Register:
-    """A row of a map: one item or several of the same kind, a channel each.
+    """A row of a map: one item, or several of the same kind, one for each channel.
 
-    Shape: `address` is that of the frames, from 0; `number` the manual's, from 1, with the digit of the area before.
-    Unit: `scale` of `unit` a count; `minimum` and `maximum` are counts.
+    Shape: `address` is the address in frames, from 0; `number` is the manual's, from 1, preceded by the digit of the
+        area.
+    Unit: one count is `scale` of `unit`; `minimum` and `maximum` are counts.
     Manual: 3.4.
     """
 
@@ -100,17 +101,17 @@ class Register:
     minimum: int | None = field(default=None, kw_only=True)
     maximum: int | None = field(default=None, kw_only=True)
     values: Any = field(default=None, kw_only=True)
-    """The type of its values where they are more than numbers and bits: an enumeration, `LineSettings`, `Firmware`."""
+    """The type of the values, if they are not plain numbers or bits: an enumeration, `LineSettings`, `Firmware`."""
     labels: tuple[str, ...] = field(default=(), kw_only=True)
-    """What its values mean, from 0 on, where neither their type nor yes and no says it."""
+    """The meaning of the values, from 0 on, if neither their type nor yes and no shows it."""
     cleared_by: int | None = field(default=None, kw_only=True)
-    """What can be written to a row that the module counts or sets itself, to clear it; nothing else can."""
+    """The only value that can be written: it clears a counter or state of the module."""
     word_order: WordOrder | None = field(default=None, kw_only=True)
-    """Of kinds that have numbers of 32 bits."""
+    """The word order of kinds with 32-bit numbers."""
     ends_when_read: bool = field(default=False, kw_only=True)
-    """Whether reading it changes it: the reset status tells the first reader only."""
+    """Whether reading changes the row: the reset status is set only for the first reader."""
     words: Callable[[Any], str] = field(default=describe.value, kw_only=True, repr=False)
-    """The value in words, without its unit: see `describe`."""
+    """Returns the value in words, without its unit: see `describe`."""
 
     @property
     def number(self) -> str:
@@ -130,16 +131,16 @@ class Register:
 
 
 OPEN_WIRE: Gates = gates_of(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
-"""Open wire detection by Modbus; M-7018R has it from an older firmware on by DCON (E68)."""
+"""Open wire detection by Modbus; by DCON, M-7018R has it from an older firmware on (E68)."""
 _LAST_TYPE_CODE = 0x1C
 _RECORDS = 6
 
 
 def rows(profile: Profile) -> tuple[Register, ...]:
-    """List what the module of `profile` has, in the order of the areas and addresses.
+    """Return the rows of the module of `profile`, in the order of the areas and addresses.
 
-    Special: firmware older than the maps has what functions 02 and 04 read (3.1, 3.2) and nothing else; an I-7000
-        module has nothing.
+    Special: firmware older than the maps has only the inputs that functions 02 and 04 read (3.1, 3.2); an I-7000 module
+        has no rows.
     Manual: 3.4.1 to 3.4.9; E43, E55, E56, E71, E88.
     """
     if Protocol.MODBUS_RTU not in profile.model.protocols:
@@ -153,12 +154,12 @@ def rows(profile: Profile) -> tuple[Register, ...]:
 
 
 def _alias(row: Register) -> Register:
-    """The same among the holding registers, or coils: what is read only has two numbers each."""
+    """Return the same row among the holding registers or coils: read-only items have two numbers each."""
     return evolve(row, area=Area.COIL if row.area is Area.DISCRETE_INPUT else Area.HOLDING_REGISTER)
 
 
 def _printed_channels(profile: Profile) -> int:
-    """Channels that the map has: those of the single-ended mode, if there is one by command."""
+    """Return the number of channels in the map: those of single-ended mode, if a command can select it."""
     model = profile.model
     return model.single_ended_channels or model.channels
 
@@ -191,7 +192,7 @@ _MASK = partial(_holding, kind=Kind.BITS, minimum=0, words=describe.mask)
 
 
 def _channels(profile: Profile) -> Iterator[Register]:
-    """What each channel has a holding register for."""
+    """Return the holding registers with a value for each channel."""
     model, channels = profile.model, _printed_channels(profile)
     if profile.has(CONFIGURABLE):
         yield _TYPE_CODE("type_code", 256, channels)
@@ -203,7 +204,7 @@ def _channels(profile: Profile) -> Iterator[Register]:
 
 
 def _module(profile: Profile) -> Iterator[Register]:
-    """What the module has a holding register for."""
+    """Return the holding registers of the whole module."""
     model = profile.model
     read_32 = partial(_holding, count=2, access=Access.READ, kind=Kind.UINT32, word_order=WordOrder.LOW_FIRST)
     yield read_32("firmware_version", 480, values=Firmware, words=describe.firmware)
@@ -263,7 +264,7 @@ _PERIOD = (("hour", "h", 24), ("minute", "min", 59), ("second", "s", 59))
 
 
 def _logger() -> Iterator[Register]:
-    """The clock and the data logger of the M-7017mC-16."""
+    """Return the registers of the clock and the data logger of the M-7017mC-16."""
     long = partial(_holding, count=2, kind=Kind.UINT32, word_order=WordOrder.SELECTED)
     code = partial(_holding, kind=Kind.CODE, minimum=0)
     yield long("rtc_epoch", 16, unit="s", scale=1)

@@ -1,7 +1,7 @@
-"""What every Modbus message is, and the exception that any request can be answered with (manual 3).
+"""The base classes of Modbus messages, and the exception that can answer every request (manual 3).
 
-Laws: a request names its response by type: ``class ReadCoils(Request[Coils])``. What a module may answer instead, an
-exception, is a value too: `ExceptionResponse`.
+Laws: a request names the type of its response: ``class ReadCoils(Request[Coils])``. An exception of a module is a value
+too: `ExceptionResponse`.
 """
 
 from enum import IntEnum
@@ -14,16 +14,16 @@ from i7000.modbus.layout import Layout
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
 BROADCAST = 0
-"""The address of a request that all modules carry out and none answers: functions 05, 06, 0F and 10."""
+"""The address of a request that all modules carry out and none of them answers: functions 05, 06, 0F and 10."""
 MODULE_SETTINGS = 0x46
-"""The function that has sub-functions."""
+"""The function code that has sub-functions."""
 EXCEPTION_BIT = 0x80
 LAST_ADDRESS = 247
-"""The last address that a module can have."""
+"""The highest address of a module."""
 
 
 class ExceptionCode(IntEnum):
-    """Why a module did not carry out a request (manual 3; the names are those of the Modbus specification)."""
+    """The reason why a module did not carry out a request (manual 3; names as in the Modbus specification)."""
 
     ILLEGAL_FUNCTION = 0x01
     ILLEGAL_DATA_ADDRESS = 0x02
@@ -52,7 +52,7 @@ class Message(message.Message):
 
 
 class Response(Message):
-    """What a module answers."""
+    """The base class of responses: the messages that a module sends."""
 
     _instead = "one of the responses, such as InputRegisters"
 
@@ -62,13 +62,13 @@ R = TypeVar("R", bound=Response)
 
 
 class Request(Message, Generic[R]):
-    """A request to one module, and the type of its response; to address 0, `BROADCAST`, there is none."""
+    """The base class of requests to one module; `response` is the type of the response. Address 0 is `BROADCAST`."""
 
     response: ClassVar[type[Response]]
     function: ClassVar[int]
     sub_function: ClassVar[int | None]
     broadcast: ClassVar[bool] = False
-    """Whether it can be sent to all modules."""
+    """Whether the request can be sent to all modules."""
     _instead = "one of the requests, such as ReadInputRegisters"
 
     def __init_subclass__(cls) -> None:
@@ -81,9 +81,9 @@ class Request(Message, Generic[R]):
 
 @message.frozen
 class SettingResult(Response):
-    """Tell whether a setting was made.
+    """The result of a request that changes a setting.
 
-    Shape: a `result` of 0 says that it was; what others say is not documented (E90).
+    Shape: a `result` of 0 means that the setting was made; other values are not documented (E90).
     """
 
     _instead = "one of the results, such as ModuleAddressResult"
@@ -98,10 +98,10 @@ def _exception(code: int) -> str:
 
 @message.frozen
 class ExceptionResponse(Response):
-    """Say that a request was not carried out, and why: the answer that any request can have.
+    """The response that a request was not carried out, with the reason; it can answer every request.
 
     Wire: function + 80h, exception code
-    Shape: `exception_code` as sent; `ExceptionCode` has the codes that are defined.
+    Shape: `exception_code` as sent; `ExceptionCode` has the defined codes.
     Manual: 3, 3.1, 3.2, 3.3; E90, E94, E99.
     """
 
@@ -110,5 +110,5 @@ class ExceptionResponse(Response):
     title = "exception"
 
     function: ExceptionFunction
-    """The function of the request, without the bit that makes it an exception."""
+    """The function code of the request, without the bit that marks an exception."""
     exception_code: Annotated[int, byte(_exception)]

@@ -1,6 +1,7 @@
 """The functions of the Modbus specification that the address maps need: 01 02 03 04 05 06 0F 10 (manual 3.1, 3.2, 3.4).
 
-Laws: an item is addressed from 0; the manual numbers it from 1 and puts its kind before: 40489 is holding register 488.
+Laws: addresses begin at 0; the manual numbers items from 1 and puts the digit of their kind before: 40489 is the
+holding register at address 488.
 """
 
 from i7000.availability import Availability
@@ -30,15 +31,15 @@ __all__ = [
 ]
 
 _MOST_WRITTEN_TO_7019 = 11
-"""Registers in one write to the 7019 series."""
+"""The maximum number of registers in one write to the 7019 series."""
 
 
 @frozen
 class Coils(Response):
-    """Tell coils.
+    """The states of coils.
 
     Wire: ``01 bytes values:bits``
-    Shape: as many bits as were asked for; read without its request, the padding bits of the last byte too.
+    Shape: as many bits as the request reads; decoded without the request, the padding bits of the last byte too.
     Manual: 3.4; E55, E120.
     """
 
@@ -51,7 +52,7 @@ class Coils(Response):
 
 @frozen
 class ReadCoils(Request[Coils]):
-    """Ask for coils.
+    """A request to read coils.
 
     Wire: ``01 start:2 count:2`` -> ``01 bytes values:bits``
     Range: 1 to 2000 of them, none beyond address 65535.
@@ -69,10 +70,10 @@ class ReadCoils(Request[Coils]):
 
 @frozen
 class DiscreteInputs(Response):
-    """Tell discrete inputs.
+    """The states of discrete inputs.
 
     Wire: ``02 bytes values:bits``
-    Shape: as many bits as were asked for; read without its request, the padding bits of the last byte too.
+    Shape: as many bits as the request reads; decoded without the request, the padding bits of the last byte too.
     Manual: 3.1; E55, E120.
     """
 
@@ -85,7 +86,7 @@ class DiscreteInputs(Response):
 
 @frozen
 class ReadDiscreteInputs(Request[DiscreteInputs]):
-    """Ask for discrete inputs.
+    """A request to read discrete inputs.
 
     Wire: ``02 start:2 count:2`` -> ``02 bytes values:bits``
     Range: 1 to 2000 of them, none beyond address 65535.
@@ -103,10 +104,10 @@ class ReadDiscreteInputs(Request[DiscreteInputs]):
 
 @frozen
 class HoldingRegisters(Response):
-    """Tell holding registers.
+    """The values of holding registers.
 
     Wire: ``03 bytes values:words``
-    Shape: as many words as were asked for.
+    Shape: as many words as the request reads.
     Manual: 3.4; E55.
     """
 
@@ -119,7 +120,7 @@ class HoldingRegisters(Response):
 
 @frozen
 class ReadHoldingRegisters(Request[HoldingRegisters]):
-    """Ask for holding registers.
+    """A request to read holding registers.
 
     Wire: ``03 start:2 count:2`` -> ``03 bytes values:words``
     Range: 1 to 125 of them, none beyond address 65535.
@@ -137,10 +138,10 @@ class ReadHoldingRegisters(Request[HoldingRegisters]):
 
 @frozen
 class InputRegisters(Response):
-    """Tell input registers.
+    """The values of input registers.
 
     Wire: ``04 bytes values:words``
-    Shape: as many words as were asked for.
+    Shape: as many words as the request reads.
     Manual: 3.2; E55.
     """
 
@@ -153,7 +154,7 @@ class InputRegisters(Response):
 
 @frozen
 class ReadInputRegisters(Request[InputRegisters]):
-    """Ask for input registers.
+    """A request to read input registers.
 
     Wire: ``04 start:2 count:2`` -> ``04 bytes values:words``
     Range: 1 to 125 of them, none beyond address 65535.
@@ -171,7 +172,7 @@ class ReadInputRegisters(Request[InputRegisters]):
 
 @frozen
 class SingleCoilWritten(Response):
-    """Say that a coil was written.
+    """The confirmation that a coil was written.
 
     Wire: ``05 coil:2 value:2``
     Manual: 3.4; E55.
@@ -187,10 +188,10 @@ class SingleCoilWritten(Response):
 
 @frozen
 class WriteSingleCoil(Request[SingleCoilWritten]):
-    """Write one coil.
+    """A request to write one coil.
 
     Wire: ``05 coil:2 value:2`` -> ``05 coil:2 value:2``
-    Shape: FF00 is true, 0000 false, and nothing else is anything.
+    Shape: FF00 is true, 0000 false; other values are invalid.
     Manual: 3.4; E55.
     """
 
@@ -206,7 +207,7 @@ class WriteSingleCoil(Request[SingleCoilWritten]):
 
 @frozen
 class SingleRegisterWritten(Response):
-    """Say that a holding register was written.
+    """The confirmation that a holding register was written.
 
     Wire: ``06 register:2 value:2``
     Manual: 3.4; E55.
@@ -222,7 +223,7 @@ class SingleRegisterWritten(Response):
 
 @frozen
 class WriteSingleRegister(Request[SingleRegisterWritten]):
-    """Write one holding register.
+    """A request to write one holding register.
 
     Wire: ``06 register:2 value:2`` -> ``06 register:2 value:2``
     Manual: 3.4; E55.
@@ -240,7 +241,7 @@ class WriteSingleRegister(Request[SingleRegisterWritten]):
 
 @frozen
 class MultipleCoilsWritten(Response):
-    """Say that coils were written.
+    """The confirmation that coils were written.
 
     Wire: ``0F start:2 count:2``
     Manual: 3.4; E55.
@@ -256,11 +257,11 @@ class MultipleCoilsWritten(Response):
 
 @frozen
 class WriteMultipleCoils(Request[MultipleCoilsWritten]):
-    """Write coils.
+    """A request to write coils.
 
     Wire: ``0F start:2 count:2 bytes values:bits`` -> ``0F start:2 count:2``
     Range: 1 to 1968 of them, none beyond address 65535.
-    Special: padding bits are written as 0, and dropped when read, whatever they are.
+    Special: padding bits are written as 0, and ignored when read.
     Manual: 3.4; E55, E120.
     """
 
@@ -276,7 +277,7 @@ class WriteMultipleCoils(Request[MultipleCoilsWritten]):
 
 @frozen
 class MultipleRegistersWritten(Response):
-    """Say that holding registers were written.
+    """The confirmation that holding registers were written.
 
     Wire: ``10 start:2 count:2``
     Manual: 3.4; E55.
@@ -292,7 +293,7 @@ class MultipleRegistersWritten(Response):
 
 @frozen
 class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
-    """Write holding registers.
+    """A request to write holding registers.
 
     Wire: ``10 start:2 count:2 bytes values:words`` -> ``10 start:2 count:2``
     Range: 1 to 123 of them, none beyond address 65535.
@@ -310,7 +311,7 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
     values: items.WrittenWords
 
     def check(self, profile: Profile) -> None:
-        """Refuse more than the module takes at once."""
+        """Raise `EncodeError` for more registers than the module accepts at once."""
         count = len(self.values)
         if profile.model.series == "7019" and count > _MOST_WRITTEN_TO_7019:
             allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write: {profile.model.value}"

@@ -1,9 +1,10 @@
-"""Frames in what a line delivers: requests, responses, or both as a tapped bus has them (manual 3).
+"""Frames in received bytes: requests, responses, or both as on a tapped bus (manual 3).
 
-Laws: `split` never raises and never loses a byte; it finds every good frame whatever noise is around it, and the same
-frames and bytes of noise between them however they arrive; what it keeps is shorter than a frame. A frame is what has
-the length that its function says and a good CRC. Where several lengths are possible, it is the longest with a good CRC:
-a 00 after a frame leaves the CRC good, so a shorter would hide a longer. Profile and open request leave but one length.
+Laws: `split` never raises and never loses a byte. It finds every valid frame amid any noise. Any chunking gives the
+same frames and the same noise bytes between them. The rest is shorter than a frame. A frame has the length that its
+function defines and a valid CRC. If several lengths are possible, the longest with a valid CRC is taken: a 00 after
+a frame leaves the CRC valid, so a shorter frame would hide a longer one. With a profile and an open request only
+one length is possible.
 """
 
 from enum import StrEnum
@@ -27,7 +28,7 @@ _MODULES = range(1, LAST_ADDRESS + 1)
 
 
 class Side(StrEnum):
-    """Whose frames are on the line."""
+    """The sides whose frames are on the line."""
 
     REQUESTS = "requests"
     RESPONSES = "responses"
@@ -37,16 +38,16 @@ class Side(StrEnum):
 
 
 class Rule(NamedTuple):
-    """How long a frame is."""
+    """The rule for the length of a frame."""
 
     length: int
-    """Bytes, without those that are counted."""
+    """The length in bytes, without the counted bytes."""
     count_at: int = 0
-    """Where the byte is that counts them; 0 if none are."""
+    """The position of the byte that counts them; 0 if no bytes are counted."""
     step: int = 1
-    """What their number is a multiple of."""
+    """The step: the number of counted bytes is a multiple of it."""
     broadcast: bool = False
-    """Whether the frame can be for all modules."""
+    """Whether the frame can be a broadcast."""
 
 
 def _rules_of(layout: Layout, mask_bytes: tuple[int, ...], *, broadcast: bool) -> tuple[Rule, ...]:
@@ -59,12 +60,12 @@ def _rules_of(layout: Layout, mask_bytes: tuple[int, ...], *, broadcast: bool) -
 
 
 Rules = dict[tuple[int, int | None], tuple[Rule, ...]]
-"""By function and sub-function."""
+"""The rules by function and sub-function."""
 
 
 @cache
 def _rules(side: Side, mask_bytes: tuple[int, ...]) -> Rules:
-    """The rules of a side."""
+    """Return the rules of a side."""
     rules: Rules = {}
     for request in REQUESTS:
         key = (request.function, request.sub_function)
@@ -79,7 +80,7 @@ def _rules(side: Side, mask_bytes: tuple[int, ...]) -> Rules:
 
 
 def _rules_of_answer(request: Request[Any], mask_bytes: tuple[int, ...]) -> Rules:
-    """The rules of what can answer a request."""
+    """Return the rules of the responses to a request."""
     count = getattr(request, "count", None)
     rules = _rules_of(request.response.layout, mask_bytes, broadcast=False)
     if count is not None and rules[0].count_at:
@@ -91,13 +92,13 @@ def _rules_of_answer(request: Request[Any], mask_bytes: tuple[int, ...]) -> Rule
 
 
 _MISSING = 256
-"""In place of a byte that is not there yet."""
+"""Stands for a byte that is not there yet."""
 Starts = list[list[tuple[int, ...] | None]]
-"""The lengths of a frame to one module, by function and third byte; None where it takes more to know."""
+"""The lengths of a frame to one module, by function and third byte; None if more bytes are needed."""
 
 
 def _starts(side: Side) -> Starts:
-    """Ask `_lengths` of every start; what depends on the profile takes more."""
+    """Return `_lengths` for every start; starts that depend on the profile are None."""
     rules, others = _rules(side, _MASK_BYTES), _rules(side, _MASK_BYTES[:1])
     no_frame: list[tuple[int, ...] | None] = [()] * (_MISSING + 1)
     table = [no_frame] * 256 + [[_MORE_IS_NEEDED] * (_MISSING + 1)]
@@ -113,7 +114,7 @@ def _starts(side: Side) -> Starts:
 
 
 class _Sides(dict[Side, Starts]):
-    """The starts of each side; made when first needed."""
+    """The starts of each side; computed at the first use."""
 
     def __missing__(self, side: Side) -> Starts:
         return self.setdefault(side, _starts(side))
@@ -125,13 +126,13 @@ _BY_START = _Sides()
 def split(
     buffer: bytes, side: Side = Side.BOTH, profile: Profile | None = None, *, request: Request[Any] | None = None
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
-    """Split what a line delivered into whole frames, noise and the rest that may still become a frame.
+    """Split received bytes into complete frames, noise, and the rest that may still become a frame.
 
-    Shape: the rest is shorter than `LONGEST_FRAME`; call again with the rest and what came next. Any chunking gives the
-        same frames, and the same bytes of noise between them.
-    Special: with a profile, channel masks have the length of its model; with the open `request`, nothing is a frame but
-        what can answer it. A frame that is not finished holds back what follows it, and so does one that could be
-        longer: when the line has been silent for 3.5 characters, `flush` the rest.
+    Shape: the rest is shorter than `LONGEST_FRAME`; call again with the rest followed by the next bytes. Any chunking
+        gives the same frames and the same noise bytes between them.
+    Special: with a profile, channel masks have the length of its model. With an open `request`, only its possible
+        responses are frames. An incomplete frame, or one that could be longer, delays what follows it: when the line
+        has been silent for 3.5 characters, `flush` the rest.
     Manual: 3; E61.
     """
     if buffer.__class__ is not bytes:
@@ -156,10 +157,10 @@ def split(
 def flush(
     rest: bytes, side: Side = Side.BOTH, profile: Profile | None = None, *, request: Request[Any] | None = None
 ) -> tuple[bytes | Noise, ...]:
-    """Split a rest after which nothing came: what is not finished is noise.
+    """Split a rest after which no byte came: an incomplete frame is noise.
 
-    Special: with the silence for a mark, a frame of an unknown function is one too, if it is all that is left: a module
-        answers it with an exception.
+    Special: because silence marks its end, the whole rest can also be a frame of an unknown function: a module answers
+        it with an exception.
     """
     check_type("side", side, Side)
     check_type("profile", profile, Profile, optional=True)
@@ -168,9 +169,9 @@ def flush(
 
 
 def drop_echo(received: bytes, sent: bytes) -> bytes | None:
-    """Take off the local echo that 2-wire adapters give of what was sent; None while the echo is still coming in.
+    """Remove the local echo of sent bytes that 2-wire adapters give; return None while the echo is incomplete.
 
-    Errors: `DecodeError` with `Fault.ECHO` where something else came.
+    Errors: `DecodeError` with `Fault.ECHO` if other bytes were received.
     """
     received, sent = as_bytes("received", received), as_bytes("sent", sent)
     for at, (byte, expected) in enumerate(zip(received, sent, strict=False)):
@@ -225,7 +226,7 @@ def _scan(  # noqa: C901, PLR0912 - one loop
 
 
 def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> int | None:
-    """Where the frame that begins here ends: here if there is none; None if that is not known yet."""
+    """Return where the frame that begins here ends: here if there is no frame; None if more bytes are needed."""
     for length in lengths:
         if at + length <= len(buffer):
             if not crc_of(buffer[at : at + length]):
@@ -236,7 +237,7 @@ def _end(buffer: bytes, at: int, lengths: tuple[int, ...], *, final: bool) -> in
 
 
 def _ends_as_frame(buffer: bytes, at: int) -> bool:
-    """Whether all that is left is one frame, of whatever function."""
+    """Return whether all remaining bytes are one frame, of any function."""
     whole = SHORTEST_FRAME <= len(buffer) - at <= LONGEST_FRAME and buffer[at] <= LAST_ADDRESS
     return whole and not crc_of(buffer[at:])
 
@@ -247,7 +248,7 @@ _MORE_IS_NEEDED = (LONGEST_FRAME + 1,)
 def _lengths(  # noqa: C901, PLR0911 - a list of what is looked at, byte after byte
     buffer: bytes, at: int, rules: Rules, addresses: range
 ) -> tuple[tuple[int, ...], Fault]:
-    """Tell the lengths that a frame beginning here can have, the longest first, and what is wrong if it is none."""
+    """Return the possible lengths of a frame that begins here, the longest first, and the fault if there is none."""
     address = buffer[at]
     if address not in addresses:
         return (), Fault.ADDRESS

@@ -1,10 +1,9 @@
-"""A simulated bus for drivers to be tried against, without hardware (extra ``simulator``).
+"""A simulated bus to try drivers without hardware (extra ``simulator``).
 
-Parts: `simulator` is the bus and its hosts, `sources` what is on the inputs, `recordings` the same from CSV files,
-`faults` what the line does, `foreign` finds frames of the protocol that a module does not speak, `memory` the EEPROMs
-in a file, `files` which files are opened; `pseudo_terminal`, `tcp` and `rfc2217`, on top of `telnet`, lead hosts to the
-bus. ``i7000 simulate`` puts them together.
-From Python, in an event loop: ``async with listen(Simulator(modules)) as place``; `Simulator.connect` puts other
-signals on the inputs, `Simulator.power_cycle` takes the power away.
-Laws: time, chance and I/O are here; how modules behave is in `i7000.device`.
+Parts: `simulator` is the bus and its hosts. `sources` are the input signals, `recordings` the same from CSV files.
+`faults` are the faults of the line, and `foreign` finds frames of the wrong protocol. `memory` keeps the EEPROMs in a
+file, and `files` opens files safely. `pseudo_terminal`, `tcp` and `rfc2217` (with `telnet`) connect hosts to the bus.
+``i7000 simulate`` combines them. From Python, in an event loop: ``async with listen(Simulator(modules)) as place``;
+`Simulator.connect` puts other signals on the inputs, `Simulator.power_cycle` switches the power off and on.
+Laws: time, randomness and I/O are here; the behaviour of modules is in `i7000.device`.
 """

@@ -1,6 +1,6 @@
-"""What real lines do to bytes: lose and flip them, add noise, deliver them in lumps, late, or twice.
+"""The faults of real lines: lost and flipped bits, noise, and bytes that arrive in lumps, late, or twice.
 
-Laws: all chance is in the generator that is handed in: the same seed and traffic give the same faults.
+Laws: all randomness comes from the generator argument: the same seed and traffic give the same faults.
 """
 
 from random import Random
@@ -12,13 +12,13 @@ from i7000.errors import InvalidValueError
 __all__ = ["Faults", "Piece", "Transfer"]
 
 _LUMP_TIME = 0.016
-"""Seconds for which USB adapters collect what comes in before they hand it on."""
+"""USB adapters collect received bytes for this many seconds before they pass them on."""
 _LONGEST_BURST = 16
 
 
 @frozen
 class Piece:
-    """Bytes, and how many seconds later they arrive."""
+    """Bytes, and the delay in seconds until they arrive."""
 
     wire: bytes
     after: float = 0.0
@@ -26,7 +26,7 @@ class Piece:
 
 @frozen
 class Transfer:
-    """What became of bytes that went over the line, and what happened to them in words."""
+    """The result of a transfer over the line: the bytes, and the faults in words."""
 
     pieces: tuple[Piece, ...]
     faults: tuple[str, ...] = ()
@@ -34,24 +34,24 @@ class Transfer:
 
 @frozen(kw_only=True)
 class Faults:
-    """How a line fails.
+    """The faults of a line.
 
     Unit: probabilities from 0 to 1; times in seconds.
-    Errors: `InvalidValueError` for what is none.
+    Errors: `InvalidValueError` for an invalid probability or time.
     """
 
     echo: bool = False
-    """The host hears what it sends, as with 2-wire adapters that do not turn off their receiver."""
+    """Whether the host receives what it sends, as with 2-wire adapters that do not turn off their receiver."""
     lumps: bool = False
-    """Answers come in what USB adapters hand on every 16 ms."""
+    """Whether responses arrive in lumps every 16 ms, as from USB adapters."""
     drop: float = 0.0
-    """That a byte is lost, in either direction."""
+    """The probability that a byte is lost, in either direction."""
     flip: float = 0.0
-    """That a bit of a byte is flipped, in either direction."""
+    """The probability that a bit of a byte is flipped, in either direction."""
     noise: float = 0.0
-    """That a burst of random bytes comes before what is sent, in either direction."""
+    """The probability that random bytes precede the bytes sent, in either direction."""
     late: float = 0.0
-    """That an answer comes late, when the host may have sent its next request."""
+    """The probability that a response is late, when the host may have sent its next request."""
     late_by: float = 0.3
 
     def __attrs_post_init__(self) -> None:
@@ -64,7 +64,7 @@ class Faults:
                 raise InvalidValueError(name, value, f"0..{most:g}", "")
 
     def carried(self, data: bytes, chance: Random) -> tuple[bytes, tuple[str, ...]]:
-        """Tell what becomes of bytes on their way, and what happened in words."""
+        """Return the bytes after their way over the line, and the faults in words."""
         if not (self.drop or self.flip or self.noise):
             return data, ()
         happened = []
@@ -84,7 +84,7 @@ class Faults:
         return bytes(carried), tuple(happened)
 
     def delivered(self, answer: bytes, character_time: float, chance: Random) -> Transfer:
-        """Tell in which pieces an answer arrives, and when."""
+        """Return the pieces in which a response arrives, and their delays."""
         wire, happened = self.carried(answer, chance)
         after = 0.0
         if self.late and chance.random() < self.late:

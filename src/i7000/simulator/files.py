@@ -1,6 +1,6 @@
-"""Opening the files that a user names: only regular files, of a bounded size.
+"""Functions that open the files that a user names: only regular files, of limited size.
 
-Laws: nothing here waits for a pipe, or reads a device that never ends.
+Laws: no function waits for a pipe, or reads an endless device.
 """
 
 import errno
@@ -16,7 +16,7 @@ __all__ = ["UnsuitableFileError", "check_regular", "open_regular"]
 
 _MEGABYTE = 1_000_000
 _OPENING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
-"""Flags so that opening a pipe or terminal that took the place of a file has no effect; Windows has no such flags."""
+"""Flags that make opening a pipe or terminal harmless, if one replaced the file; Windows has no such flags."""
 
 
 class UnsuitableFileError(I7000Error, ValueError):
@@ -36,7 +36,7 @@ class UnsuitableFileError(I7000Error, ValueError):
 
 
 def check_regular(path: str | os.PathLike[str], status: os.stat_result) -> None:
-    """Raise an error unless `status`, that of the file at `path`, is the status of a regular file.
+    """Raise an error unless `status`, the status of the file at `path`, is that of a regular file.
 
     Errors: `UnsuitableFileError`; `IsADirectoryError`.
     """
@@ -47,7 +47,7 @@ def check_regular(path: str | os.PathLike[str], status: os.stat_result) -> None:
 
 
 def open_regular(path: str | os.PathLike[str], most: int) -> BinaryIO:
-    """Open a regular file that has 1 to `most` bytes.
+    """Open a regular file of 1 to `most` bytes.
 
     Errors: `UnsuitableFileError`, before anything is read; `OSError`.
     """

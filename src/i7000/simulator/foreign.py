@@ -1,4 +1,4 @@
-"""Frames of the protocol that a module does not speak: noise to the module, and a hint to who watches."""
+"""Frames of the protocol that a module does not use: noise to the module, and a hint for the user."""
 
 from collections.abc import Sequence
 
@@ -11,11 +11,11 @@ from i7000.settings import Protocol
 __all__ = ["LONGEST", "deaf_module", "foreign_frames"]
 
 LONGEST = max(dcon.LONGEST_FRAME, modbus.LONGEST_FRAME)
-"""Bytes of a frame of any protocol."""
+"""The longest frame of any protocol, in bytes."""
 
 
 def foreign_frames(modules: Sequence[State], wire: bytes) -> tuple[Heard, ...]:
-    """Find whole frames of a protocol that no module speaks, among bytes that no module understood."""
+    """Return the complete frames of a protocol that no module uses, among bytes that no module understood."""
     found: list[Heard] = []
     for protocol in set(Protocol) - {module.ram.protocol for module in modules}:
         parts = dcon.split(wire)[0] if protocol is Protocol.DCON else modbus.flush(wire, modbus.Side.REQUESTS)
@@ -24,9 +24,9 @@ def foreign_frames(modules: Sequence[State], wire: bytes) -> tuple[Heard, ...]:
 
 
 def deaf_module(modules: Sequence[State], heard: Heard) -> Profile | None:
-    """Return the profile of a module that cannot understand a frame, since it speaks the other protocol.
+    """Return the profile of a module that cannot understand a frame because it uses the other protocol.
 
-    Special: it is the one with the address of the frame; if no module speaks the protocol, else the first one.
+    Special: it is the module with the address of the frame, or else the first one if no module uses the protocol.
     """
     if heard.module is not None or isinstance(heard.frame, Noise):
         return None

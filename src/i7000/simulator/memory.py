@@ -1,14 +1,13 @@
 """The EEPROMs of the modules of a bus, in a file: JSON that people can read, compare and edit.
 
-Shape: ``format``, ``version``, ``crc`` and ``modules``, one object an `Eeprom`, with the names of its fields. Values
-are those that a person finds elsewhere: a model by its printed name; type codes, address, mask and logged words in hex,
-as the manual and the frames have them; the baud rate in bits per second; all other codes by name; numbers as the module
-counts them. A log that is as it comes from the factory is ``null``.
-Laws: a file is read as it is meant or not at all: nothing is left out, added, converted or guessed. `crc` finds a digit
-that turned into another; it goes by the values, not by how they are laid out. Who changes a value on purpose deletes
-that line, and the next `save` writes it anew. A file that is refused is not touched, and one that is written is the old
-one or the new one at any moment, never a part. What `save` writes, `load` reads. Simulators
-take turns with a file: `held`.
+Shape: ``format``, ``version``, ``crc`` and ``modules``, one object for each `Eeprom`, with the names of its fields.
+Values are written as in the manual: a model by its printed name; type codes, address, mask and logged words in hex; the
+baud rate in bits per second; all other codes by name; numbers in counts of the module. A log with factory settings is
+``null``.
+Laws: a file is read exactly or not at all: no value is dropped, added, converted or guessed. `crc` detects changed
+digits; it depends on the values, not on the layout of the file. To change a value, delete the ``crc`` line; the next
+`save` writes it again. A rejected file is not changed. While a file is written it is the old or the new one, never a
+part. `load` reads everything that `save` writes. Only one simulator uses a file at a time: `held`.
 """
 
 import errno
@@ -37,15 +36,15 @@ FORMAT = "i7000 modules"
 VERSION = 1
 
 _DIGITS = 20
-"""More than any number in a file has."""
+"""More digits than any number in a file has."""
 _MOST = 40_000_000
-"""Bytes of a file: 256 modules with full logs have less."""
+"""The maximum size of a file in bytes: 256 modules with full logs need less."""
 _TOKEN = 8
-"""Random bytes in the name of a temporary file."""
+"""The number of random bytes in the name of a temporary file."""
 
 
 class MemoryFileError(I7000Error, ValueError):
-    """A file that does not hold the EEPROMs of modules, or is damaged.
+    """The error for a file that does not contain the EEPROMs of modules, or is damaged.
 
     Shape: `path`; `place` in the file (``modules[0].address``, or a line and column); `reason`; `allowed`.
     """
@@ -66,11 +65,11 @@ class MemoryFileError(I7000Error, ValueError):
 
 @contextmanager
 def held(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Keep other simulators from a file for as long as this one uses it.
+    """Lock a file against other simulators while this one uses it.
 
-    Special: a hidden file beside it carries the lock and stays there; the lock itself ends with the process. It is
-        beside the file that a symbolic link names. A hard link is not locked: its first `save` makes it a file of its
-        own. Temporary files that an interrupted `save` has left are removed.
+    Special: a hidden file beside it has the lock and stays there; the lock itself ends with the process. For a symbolic
+        link, it is beside the target. A hard link is not locked: its first `save` makes it a separate file. Temporary
+        files of an interrupted `save` are removed.
     Errors: `MemoryFileError` if another simulator uses the file; that or `OSError` if `save` could not replace it, and
         `OSError` if it cannot be locked.
     """
@@ -94,7 +93,7 @@ def held(path: str | os.PathLike[str]) -> Iterator[None]:
 def load(path: str | os.PathLike[str]) -> tuple[Eeprom, ...]:
     """Read the EEPROMs of modules.
 
-    Errors: `MemoryFileError` for a file that is not as `save` writes them; `OSError` if it cannot be read.
+    Errors: `MemoryFileError` for a file that differs from what `save` writes; `OSError` if it cannot be read.
     """
     try:
         with open_regular(path, _MOST) as file:
@@ -108,11 +107,11 @@ def load(path: str | os.PathLike[str]) -> tuple[Eeprom, ...]:
 
 
 def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
-    """Write the EEPROMs of modules, all at once: whoever reads the file finds the old ones or the new ones.
+    """Write the EEPROMs of modules in one step: readers of the file find the old ones or the new ones.
 
-    Special: what a symbolic link names is replaced, not the link. The mode of a file that exists is kept.
-    Errors: `MemoryFileError` for what `load` would refuse, and for what is no file; `OSError` that names `path`, also
-        for a read-only file. The old file stays as it was then.
+    Special: for a symbolic link, the target is replaced. An existing file keeps its mode.
+    Errors: `MemoryFileError` for values that `load` would refuse, and for a path that is not a file; `OSError` with
+        `path`, also for a read-only file. The old file is then unchanged.
     """
     modules = unstructured(eeproms)
     try:
@@ -168,7 +167,7 @@ _WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 @contextmanager
 def _named(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Raise errors of the system with the path that was given, not with that of a temporary file."""
+    """Raise system errors with the given path, not with that of a temporary file."""
     try:
         yield
     except OSError as error:
@@ -197,7 +196,7 @@ def _text(modules: list[Any]) -> str:
 
 
 def _laid_out(value: Any, line: str) -> str:  # noqa: ANN401 - of any JSON
-    """Write what has containers in it on several lines, and all else on one."""
+    """Return JSON with nested containers on several lines, and other values on one."""
     named = isinstance(value, dict)
     inner = value.values() if named else value if isinstance(value, list | tuple) else ()
     if not any(isinstance(one, dict | list | tuple) for one in inner):
@@ -210,7 +209,7 @@ def _laid_out(value: Any, line: str) -> str:  # noqa: ANN401 - of any JSON
 
 
 def _crc(modules: list[Any]) -> str:
-    """Compute the CRC-32 of what the modules hold, as JSON without blanks and with sorted names."""
+    """Compute the CRC-32 of the modules, as JSON without blanks and with sorted names."""
     return f"{crc32(json.dumps(modules, sort_keys=True, separators=(',', ':')).encode()):08X}"
 
 

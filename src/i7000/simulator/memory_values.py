@@ -1,7 +1,6 @@
-"""The EEPROMs of modules as the plain values of JSON, and back: what each field may be, and where it is wrong.
+"""The EEPROMs of modules as plain JSON values, and back: the values of each field, and the place of an error.
 
-Laws: nothing is converted that is not what it should be, and nothing is left out; the first fault is told with its
-place.
+Laws: invalid values are never converted, and no value is left out; the error has the place of the first fault.
 """
 
 import json
@@ -35,14 +34,14 @@ from i7000.device import Eeprom, Log, LogCommand, Record
 __all__ = ["FAULTS", "Odd", "WrongError", "check_names", "short", "structured", "told", "unstructured"]
 
 _LAST_MOMENT = 10**12
-"""Seconds, either way from 1970, that clocks can differ by."""
+"""The maximum difference of a clock from 1970, in seconds."""
 
 
 # --- what is wrong, and where -----------------------------------------------------------------------------------------
 
 
 class WrongError(ValueError):
-    """What is wrong at the place where it is raised; the hooks around it know the place."""
+    """An error without its place; the hooks around it add the place."""
 
     def __init__(self, reason: str, allowed: str, place: str = "") -> None:
         super().__init__(reason)
@@ -51,7 +50,7 @@ class WrongError(ValueError):
 
 @frozen(repr=False)
 class Odd:
-    """What JSON can say and no file holds: refused where it stands."""
+    """A JSON value that is never valid in a file; it is refused at its place."""
 
     words: str
 
@@ -60,11 +59,11 @@ class Odd:
 
 
 FAULTS = (WrongError, InvalidValueError, BaseValidationError)
-"""What `structured` raises."""
+"""The errors that `structured` raises."""
 
 
 def told(error: Exception) -> tuple[str, str, str]:
-    """Tell where the first fault is, what it is, and what is allowed there."""
+    """Return the place of the first fault, the fault, and what is allowed there."""
     place = ""
     while True:
         for note in reversed(getattr(error, "__notes__", [])):
@@ -83,7 +82,7 @@ def told(error: Exception) -> tuple[str, str, str]:
 
 
 def check_names(value: dict[str, Any], names: Iterable[str], optional: Iterable[str] = ()) -> None:
-    """Refuse an object that has not all of `names`, or others."""
+    """Raise `WrongError` for an object with missing or other names."""
     for name in names:
         if name not in value:
             raise WrongError(f"has no {name!r}", f"an object with {', '.join(names)}")
@@ -97,7 +96,7 @@ _REPR.maxstring = _REPR.maxother = 60
 
 
 def short(value: object) -> str:
-    """Show a value, or the beginning of a long one."""
+    """Return a value as text, shortened if it is long."""
     return _REPR.repr(value)
 
 
@@ -109,9 +108,9 @@ def _no(value: object, allowed: str) -> WrongError:
 
 
 def structured(modules: Any) -> tuple[Eeprom, ...]:  # noqa: ANN401 - any JSON
-    """Read the EEPROMs of a list.
+    """Return the EEPROMs of a list.
 
-    Errors: `FAULTS`, of which `told` makes words.
+    Errors: `FAULTS`; `told` describes them in words.
     """
     try:
         found: tuple[Eeprom, ...] = _CONVERTER.structure(modules, tuple[Eeprom, ...])
@@ -122,7 +121,7 @@ def structured(modules: Any) -> tuple[Eeprom, ...]:  # noqa: ANN401 - any JSON
 
 
 def unstructured(eeproms: Iterable[Eeprom]) -> list[Any]:
-    """Write EEPROMs as plain values: what `structured` reads, the other way round."""
+    """Return EEPROMs as plain values: the inverse of `structured`."""
     return [_CONVERTER.unstructure(eeprom) for eeprom in eeproms]
 
 
@@ -172,7 +171,7 @@ def _words(value: Any, _: object) -> tuple[int, ...]:  # noqa: ANN401
 
 
 def _label(member: Enum) -> str | int:
-    """Write a coded value as people know it."""
+    """Return the readable form of a coded value."""
     if isinstance(member, TypeCode):
         return f"{member:02X}"
     if isinstance(member, BaudRate):
@@ -194,7 +193,7 @@ def _labelled(kind: type[Enum]) -> _Hook:
 
 
 def _listed(kind: Any, converter: Converter) -> _Hook:  # noqa: ANN401 - a tuple of something
-    """Read a tuple: of any length, or of a certain one; all items are of one type."""
+    """Return a tuple of items of one type: of any length, or of a fixed one."""
     item, *others = get_args(kind)
     length = None if others == [...] else 1 + len(others)
     structure_item = converter.get_structure_hook(item)
@@ -215,7 +214,7 @@ def _listed(kind: Any, converter: Converter) -> _Hook:  # noqa: ANN401 - a tuple
 
 
 def _with_all_names(kind: type[Any], converter: Converter) -> _Hook:
-    """Read an object that has all fields of a class and no other."""
+    """Return an object that must have all fields of a class and no others."""
     overrides: Any = _OVERRIDES.get(kind, {})
     names = [it.name for it in fields(kind) if not (it.name in overrides and overrides[it.name].omit)]
     structure_fields: Any = make_dict_structure_fn(kind, converter, **overrides)

@@ -1,4 +1,4 @@
-"""What the simulator tells of the traffic on its line."""
+"""The events that the simulator reports about the traffic on its line."""
 
 from attrs import frozen
 
@@ -11,21 +11,21 @@ __all__ = ["Observed"]
 
 @frozen
 class Observed:
-    """Something that was on the line: what modules heard, and what came back."""
+    """An event on the line: what modules heard, and the response."""
 
     at: float
-    """Seconds since the simulator began."""
+    """The seconds since the start of the simulator."""
     client: str
-    """Who sent it: the address of its end of the connection, or the path of a pseudo-terminal."""
+    """The sender: the address of its end of the connection, or the path of a pseudo-terminal."""
     heard: bytes | Noise
-    """A whole frame, or bytes that are none."""
+    """A complete frame, or bytes that are not a frame."""
     protocol: Protocol
-    """Whose frame it is."""
+    """The protocol of the frame."""
     profile: Profile | None
-    """That of the module it is for, as it was before; None: it is for none of this bus, or for all."""
+    """The profile of the addressed module before the frame; None for a broadcast, or if no module has the address."""
     answer: bytes | None
-    """What the modules answered; None: silence."""
+    """The response of the modules; None for silence."""
     faults: tuple[str, ...] = ()
-    """What the line did to it."""
+    """The faults of the line."""
     deaf: Profile | None = None
-    """That of a module that cannot understand it, since it speaks the other protocol."""
+    """The profile of a module that cannot understand it because it uses the other protocol."""

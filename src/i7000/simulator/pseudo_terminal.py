@@ -1,6 +1,6 @@
-"""A pseudo-terminal that leads to a simulated bus (POSIX).
+"""A pseudo-terminal that connects a host to a simulated bus (POSIX).
 
-Laws: a host that does not read loses what it is sent, as on a line; nothing waits for it.
+Laws: a host that does not read loses bytes, as on a real line; the simulator never waits for it.
 """
 
 import asyncio
@@ -19,9 +19,9 @@ _AT_ONCE = 4096
 
 @asynccontextmanager
 async def open_pty(simulator: Simulator) -> AsyncIterator[str]:
-    """Open a pseudo-terminal that leads to the bus; the value is its path.
+    """Open a pseudo-terminal connected to the bus; the value is its path.
 
-    Special: it keeps neither baud rate nor parity, so all modules hear whoever opens it.
+    Special: it has neither baud rate nor parity, so all modules receive every host.
     """
     end, near = pty.openpty()
     try:

@@ -1,7 +1,7 @@
-"""What was recorded on inputs, read from CSV files.
+"""Recorded input signals, read from CSV files.
 
-Laws: a file is read once, in blocks, and kept as arrays of numbers. One regular expression reads the rows of a block;
-a block with rows that it does not match is read row by row, with the same outcome. Errors name the line.
+Laws: a file is read once, in blocks, and stored as arrays of numbers. One regular expression reads the rows of a block;
+if it does not match, the block is read row by row, with the same result. Errors name the line.
 """
 
 import csv
@@ -26,23 +26,23 @@ __all__ = ["MOST_BYTES", "MOST_ROWS", "read_recording"]
 MOST_BYTES = 200_000_000
 MOST_ROWS = 2_000_000
 _BLOCK = 1 << 16
-"""Characters that are read at once; also the longest line."""
+"""The number of characters read at once, and so the longest line."""
 _SHOWN = 60
-"""Characters of a file that a message shows."""
+"""The maximum number of characters of a file shown in a message."""
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _LIKE_A_NUMBER = r"[0-9.eE+ \t-]++"
-"""What has no other characters than numbers, and is one if `float` takes it."""
+"""Text with only the characters of numbers; it is a number if `float` accepts it."""
 _QUOTED = re.compile(r"""(?:^|(?<=,))"(?:[^"\n]++|"")*+"(?=[,\n])""", re.MULTILINE)
-"""A quoted cell, which only a column that is not read may have in a block that is read at once."""
+"""A quoted cell; in a block that is read at once, only columns that are not read may have one."""
 
 
 def read_recording(path: str | os.PathLike[str], units: Mapping[str, Unit]) -> dict[str, Recorded]:
-    """Read columns of a CSV file, those that `units` names; the other ones may hold anything.
+    """Read the columns of a CSV file that `units` names; other columns may have any content.
 
     Shape: a line with the names of the columns: ``seconds``, numbers of channels, `COLD_JUNCTION`. Every further line
         is a row with one value for each column: a number with a decimal point, or ``open``; seconds rise. Empty lines
-        do not count. At most `MOST_ROWS` rows and `MOST_BYTES` bytes.
+        are ignored. At most `MOST_ROWS` rows and `MOST_BYTES` bytes.
     Errors: `InvalidValueError` that names the line; `UnsuitableFileError`; `OSError`.
     """
     with (
@@ -82,7 +82,7 @@ def _header(text: TextIO, names: Collection[str]) -> tuple[int, list[str]]:
 
 
 def _blocks(text: TextIO, line: int) -> Iterator[tuple[int, str]]:
-    """Yield the lines that follow, many at once, and the number of the first."""
+    """Yield the following lines in blocks, each with the number of its first line."""
     rest = ""
     while block := text.read(_BLOCK):
         whole, end, rest = (rest + block).rpartition("\n")
@@ -96,7 +96,7 @@ def _blocks(text: TextIO, line: int) -> Iterator[tuple[int, str]]:
 
 
 class _Columns:
-    """The columns of a file, and those of them that are read: `names`, in the order of the file."""
+    """The columns of a file, and the ones to read: `names`, in the order of the file."""
 
     def __init__(self, header: Sequence[str], names: Collection[str]) -> None:
         self.names = [name for name in header if name in names]
@@ -105,7 +105,7 @@ class _Columns:
         self._rows = re.compile(rf"(?:{','.join(forms)}\n)*+")
 
     def read(self, first: int, block: str) -> tuple[Sequence[int], list[list[float]]]:
-        """Return the numbers of the lines of a block that are rows, and what is in each column that is read."""
+        """Return the line numbers of the rows of a block, and the cells of each column to read."""
         plain = _QUOTED.sub("", block) if '"' in block else block
         if self._rows.fullmatch(plain):
             cells = plain.replace("\n", ",").split(",")
@@ -120,7 +120,7 @@ class _Columns:
         return list(rows), [[row[name] for row in rows.values()] for name in self.names]
 
     def _row(self, line: int, cells: Sequence[str]) -> dict[str, float]:
-        """Return what is in the columns that are read."""
+        """Return the cells of the columns to read."""
         if len(cells) != len(self._header):
             allowed = f"one for each of {len(self._header)} columns, decimals with a point"
             raise InvalidValueError("row", cells, allowed, "", f"line {line}: there are {len(cells)} values")
@@ -135,7 +135,7 @@ def _form(name: str) -> str:
 def _numbers(cells: Sequence[str]) -> list[float]:
     """Convert the cells of a column; an open wire is nan.
 
-    Errors: `ValueError` that names no line, also for a number too large for a float.
+    Errors: `ValueError` without the line, also for a number too large for a float.
     """
     if "open" in cells:
         cells = ["nan" if cell == "open" else cell for cell in cells]
@@ -164,7 +164,7 @@ def _cells(line: int, text: str) -> list[str]:
 
 
 def _check_seconds(seconds: "array[float]", lines: Sequence[int]) -> None:
-    """Refuse times, the last of which are those of `lines`, that do not rise or are too many."""
+    """Raise an error for times that do not rise or are too many; `lines` are the lines of the last ones."""
     if len(seconds) > MOST_ROWS:
         raise InvalidValueError(
             "rows", len(seconds), f"{MOST_ROWS} rows", "", f"line {lines[-1]}: there are too many rows"

@@ -1,8 +1,8 @@
-"""A simulated bus behind RFC 2217: hosts set their baud rate and parity, and the wrong ones get garbage.
+"""A simulated bus over RFC 2217: hosts set their baud rate and parity, and wrong settings give garbage.
 
 Sections: RFC 2217, 3 (the commands of the COM port option).
-Laws: what a host sends before a setting is heard before the setting applies. The reply to a setting is the value in
-effect: a value that no port has changes nothing, and nobody is hung up on.
+Laws: bytes sent before a setting are processed before the setting applies. The reply to a setting is the value in
+effect: an unsupported value changes nothing, and the connection stays open.
 """
 
 import asyncio
@@ -25,7 +25,7 @@ _THEIRS = {_BINARY, _SUPPRESS_GO_AHEAD, _COM_PORT}
 _OFFERS = (WILL, _ECHO), (WILL, _SUPPRESS_GO_AHEAD), (DO, _BINARY), (WILL, _COM_PORT)
 
 _SERVER = 100
-"""What the number of a reply is more than that of its command."""
+"""The difference between the number of a reply and that of its command."""
 _CONTROL, _LINE_STATE, _MODEM_STATE = 5, 6, 7
 _NO_ERRORS = b"\0"
 _READY = b"\xb0"
@@ -34,7 +34,7 @@ _READY = b"\xb0"
 
 @frozen
 class _Setting:
-    """A setting of a port: the name of its `Uart` field, its bytes, and the values of its codes if these are others."""
+    """A setting of a port: the name of its `Uart` field, its length, and the values of its codes if they differ."""
 
     name: str
     size: int
@@ -56,20 +56,20 @@ _CONTROLS = {
 }
 """Requests for outbound flow control, break, DTR, RTS and inbound flow control, and the states of each."""
 _AT_FIRST = {0: 1, 4: 6, 7: 8, 10: 11, 13: 14}
-"""No flow control, no break; DTR and RTS are set."""
+"""The initial states: no flow control, no break; DTR and RTS are set."""
 _CONFIRMED = {10: range(0x100), 11: range(0x100), 12: range(1, 4)}
-"""The masks of line and modem state, and purging the buffers, which has no effect: nothing is kept in them."""
+"""Commands that are only confirmed: the masks of line and modem state, and purging the buffers (always empty)."""
 
 
 class Port:
-    """What a host sets of its end of the line."""
+    """The settings that a host makes for its end of the line."""
 
     def __init__(self, host: Host) -> None:
         self._host = host
         self._controls = dict(_AT_FIRST)
 
     def answer(self, content: bytes) -> bytes:
-        """Do what a subnegotiation asks, and return the content of the reply; empty if there is none."""
+        """Carry out a subnegotiation, and return the content of the reply; empty if there is none."""
         if len(content) <= 1 or content[0] != _COM_PORT:
             return b""
         command, value = content[1], content[2:]
@@ -84,7 +84,7 @@ class Port:
         return bytes((_COM_PORT, _SERVER + command)) + said if said else b""
 
     def _set(self, setting: _Setting, value: bytes) -> bytes:
-        """Set what can be set, and return the value in effect; 0 asks for it."""
+        """Change a setting, and return the value in effect; 0 only reads it."""
         uart: Any = self._host.uart
         if len(value) == setting.size:
             number = int.from_bytes(value)
@@ -106,7 +106,7 @@ class Port:
 
 
 class Rfc2217Connection(Connection):
-    """A host on the network, whose bytes are those of RFC 2217."""
+    """A network connection of a host that uses RFC 2217."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Connect the host to the bus, and begin to negotiate."""
@@ -118,7 +118,7 @@ class Rfc2217Connection(Connection):
         super().write(b"".join(self._options.offer(*offer) for offer in _OFFERS))
 
     def receive(self, data: bytes) -> None:
-        """Take what the host sends and sets, one after the other."""
+        """Process the data and settings that the host sends, in order."""
         for part in self._telnet.receive(data):
             if isinstance(part, bytes):
                 super().receive(part)
@@ -134,5 +134,5 @@ class Rfc2217Connection(Connection):
             super().write(subnegotiation(bytes((_COM_PORT, _SERVER + _MODEM_STATE)) + _READY))
 
     def write(self, data: bytes) -> None:
-        """Send to the host."""
+        """Send bytes to the host."""
         super().write(escaped(data))

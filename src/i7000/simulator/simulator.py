@@ -1,7 +1,7 @@
-"""A bus of simulated modules, and the hosts that talk to it: the clock and chance are here, the rules are not.
+"""A bus of simulated modules, and its hosts; the clock and randomness are here.
 
-Laws: what modules do is what `i7000.device` says; hosts share the modules, not what they have half sent. Nothing that a
-host sends, or does not read, makes the simulator grow: what there is no room for is lost, as on a line, and counted.
+Laws: `i7000.device` defines the behaviour of modules. Hosts share the modules, but not incomplete frames. Memory is
+limited, whatever hosts send or do not read: excess bytes are lost, as on a real line, and counted.
 """
 
 import asyncio
@@ -23,23 +23,23 @@ from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 __all__ = ["MOST_LATE_BYTES", "MOST_LATE_PIECES", "UNREAD", "Host", "Simulated", "Simulator"]
 
 MOST_LATE_PIECES = 1 << 10
-"""Pieces of answers to one host that can be on their way."""
+"""The maximum number of delayed pieces of responses to one host."""
 MOST_LATE_BYTES = 1 << 16
-"""Bytes of these; an answer beyond either limit is lost whole."""
+"""The maximum number of their bytes; a response beyond either limit is lost completely."""
 UNREAD = "an answer was lost: its host does not read"
-"""A notice."""
+"""The text of a notice."""
 _SILENCE = 0.02
-"""Seconds after which a frame of Modbus RTU is over: more than 3.5 characters, as networks do not keep time."""
+"""The silence in seconds that ends a Modbus RTU frame: more than 3.5 characters, as networks do not keep time."""
 _MOST_FAULTS = 16
-"""Faults that are remembered until there is something of which they can be told."""
+"""The maximum number of faults kept until there is an event to report them with."""
 _LOST = "an answer was lost: too many are late"
 _TICK = 0.25
-"""Seconds after which modules notice that time has passed, if nobody talks to them."""
+"""The interval in seconds at which modules notice the time without traffic."""
 
 
 @frozen
 class Simulated:
-    """A module to be simulated, and what is on its inputs."""
+    """A module to simulate, and its input signals."""
 
     eeprom: Eeprom
     sources: Sources
@@ -47,7 +47,7 @@ class Simulated:
 
 
 class Simulator:
-    """A bus of modules that have power."""
+    """A bus of modules with power."""
 
     def __init__(  # noqa: PLR0913 - all but the modules are options
         self,
@@ -59,11 +59,11 @@ class Simulator:
         observe: Callable[[Observed], None] | None = None,
         report: Callable[[str], None] | None = None,
     ) -> None:
-        """Give power to modules.
+        """Power on modules.
 
-        Shape: `store` is called with the EEPROMs of all modules when one has changed, `observe` with all traffic,
-            `report` with each notice when it is new.
-        Special: the modules' time is that of the world, but never goes back.
+        Shape: `store` is called with the EEPROMs of all modules when one changes, `observe` with all traffic, `report`
+            with each new notice.
+        Special: the time of the modules is real time, but never goes back.
         """
         self.faults = faults or Faults()
         self.chance = Random(seed)  # noqa: S311 - repeatable
@@ -71,7 +71,7 @@ class Simulator:
         self.observe = observe
         self.report = report
         self.notices: Counter[str] = Counter()
-        """What else there is to be known, and how often it happened."""
+        """The notices, and how often each happened."""
         self.loop = asyncio.get_running_loop()
         self._ended: asyncio.Future[None] = self.loop.create_future()
         self._epoch = time() - monotonic()
@@ -88,7 +88,7 @@ class Simulator:
 
     @property
     def signals(self) -> tuple[Signals, ...]:
-        """What is on the inputs of each module now: the same until they are sampled again."""
+        """The signals at the inputs of each module now; unchanged until the next sample."""
         number = int((self.now - self._began) * SAMPLES_A_SECOND)
         if self._sampled is None or self._sampled[0] != number:
             seconds = number / SAMPLES_A_SECOND
@@ -96,7 +96,7 @@ class Simulator:
         return self._sampled[1]
 
     def modules(self) -> tuple[tuple[State, Signals], ...]:
-        """Tell the modules as they are now, with what is on their inputs."""
+        """Return the modules as they are now, with their signals."""
         return tuple(zip(self.bus.modules, self.signals, strict=True))
 
     def connect(self, sources: Iterable[Sources]) -> None:
@@ -106,7 +106,7 @@ class Simulator:
         self._sampled = None
 
     def power_cycle(self) -> None:
-        """Take the power of all modules away, and give it back."""
+        """Switch the power of all modules off and on."""
         eeproms = [module.eeprom for module in self.bus.modules or self._simulated]
         self.bus = Bus(
             tuple(
@@ -116,14 +116,14 @@ class Simulator:
         )
 
     def advance(self) -> None:
-        """Let the modules notice that time has passed."""
+        """Let the modules notice the time."""
         now = self.now
         self.change(Bus(tuple(advance(module, signals, now) for module, signals in self.modules())))
 
     def change(self, bus: Bus) -> bool:
-        """Make `bus` what there is, and store what has changed in its EEPROMs.
+        """Replace the bus by `bus`, and store changes of EEPROMs.
 
-        Return False, and leave the bus as it was, if that cannot be stored: the simulation has ended then.
+        Return False, and keep the old bus, if storing fails: the simulation then ends.
         """
         changed = any(one.eeprom is not other.eeprom for one, other in zip(bus.modules, self.bus.modules, strict=True))
         if changed and self.store:
@@ -138,20 +138,20 @@ class Simulator:
         return True
 
     def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
-        """Tell who observes the line."""
+        """Report an event to the observer of the line."""
         if self.observe:
             at = self.now - self._began
             deaf = deaf_module(self.bus.modules, heard)
             self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults, deaf))
 
     def notice(self, text: str) -> None:
-        """Count something that is no traffic, and report it the first time."""
+        """Count a notice, and report it the first time."""
         self.notices[text] += 1
         if self.report and self.notices[text] == 1:
             self.report(text)
 
     async def run(self) -> None:
-        """Let time pass until `end` is called.
+        """Move the time on until `end` is called.
 
         Errors: `OSError` or `I7000Error` of `store`.
         """
@@ -161,20 +161,21 @@ class Simulator:
         self._ended.result()
 
     def end(self) -> None:
-        """Have `run` return."""
+        """Make `run` return."""
         if not self._ended.done():
             self._ended.set_result(None)
 
 
 class Host:
-    """One host's end of the line."""
+    """The end of the line of one host."""
 
     def __init__(
         self, simulator: Simulator, name: str, write: Callable[[bytes], None], uart: Uart | None = None
     ) -> None:
-        """Connect a host.
+        """Connect a host to the bus.
 
-        Shape: `write` is called with what comes back; `uart` is how the host sends and hears, None: as each module.
+        Shape: `write` is called with received bytes; `uart` has the line settings of the host, None for those of each
+            module.
         """
         self.simulator = simulator
         self.name = name
@@ -183,16 +184,16 @@ class Host:
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
         self._later: dict[asyncio.TimerHandle, int] = {}
-        """The pieces of answers that are on their way, and their lengths."""
+        """The delayed pieces of responses, and their lengths."""
         self._finished: Callable[[], None] | None = None
         self._faults: tuple[str, ...] = ()
         self._noises: list[tuple[Heard, tuple[str, ...]]] = []
-        """Noise that may turn out to be a frame of the other protocol, when the line is silent."""
+        """Noise that may be a frame of the other protocol, once the line is silent."""
         self._not_understood = b""
-        """What was heard since the line was silent, or the last frame."""
+        """The bytes received since the line was silent, or since the last frame."""
 
     def receive(self, data: bytes) -> None:
-        """Take what the host sends."""
+        """Process the bytes that the host sends."""
         simulator = self.simulator
         if simulator.faults.echo:
             self._write(data)
@@ -210,7 +211,7 @@ class Host:
 
     @property
     def uart(self) -> Uart | None:
-        """How it sends and hears."""
+        """The line settings of the host."""
         return self.ear.uart
 
     @uart.setter
@@ -218,12 +219,12 @@ class Host:
         self.ear = evolve(self.ear, uart=uart)
 
     def finish(self, finished: Callable[[], None]) -> None:
-        """Call `finished` as soon as no answer is on its way."""
+        """Call `finished` as soon as no response is delayed."""
         self._finished = finished
         self._check_finished()
 
     def close(self) -> None:
-        """Disconnect it: nothing comes back any more."""
+        """Disconnect the host: it receives nothing more."""
         self._stop_waiting()
         for handle in self._later:
             handle.cancel()
@@ -261,7 +262,7 @@ class Host:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
 
     def _tell_noises(self) -> None:
-        """Tell what has been no frame until now."""
+        """Report the noise collected so far."""
         noises, self._noises = self._noises, []
         self._not_understood = b""
         for heard, faults in noises:
@@ -273,7 +274,7 @@ class Host:
             self._silence = None
 
     def _answer(self, answer: bytes, delay: float) -> tuple[str, ...]:
-        """Send an answer, and return what happened to it."""
+        """Send a response, and return its faults."""
         character_time = (self.uart or Uart()).character_time
         transfer = self.simulator.faults.delivered(answer, character_time, self.simulator.chance)
         late = [piece for piece in transfer.pieces if delay + piece.after]

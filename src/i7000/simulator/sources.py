@@ -1,8 +1,7 @@
-"""What is on the inputs of simulated modules over time.
+"""Signal sources for the inputs of simulated modules.
 
-Laws: a source is a pure function of the number of the sample, whatever was asked before; a source that could ever give
-what no input can have is refused when it is made. Inputs are sampled `SAMPLES_A_SECOND` times a second, and a sample
-holds until the next.
+Laws: a source is a pure function of the sample number. A source that could return an impossible value is refused when
+it is made. Inputs are sampled `SAMPLES_A_SECOND` times a second, and a sample holds until the next.
 """
 
 from array import array
@@ -38,14 +37,14 @@ __all__ = [
 SAMPLES_A_SECOND = 10
 
 COLD_JUNCTION = "cold_junction"
-"""The column of a recording that has its temperatures."""
+"""The column of a recording with the cold-junction temperatures."""
 
 _ROOM_TEMPERATURE = 25.0
 _MOST_DEVIATIONS = 4.0
 _LATEST = 1e300
-"""Seconds beyond which a simulation does not get: its tenths are still a float."""
+"""The longest simulation in seconds: tenths of it still fit in a float."""
 _REMEMBERED = 1024
-"""Samples, of all modules together: more than one line has modules."""
+"""The number of cached samples, of all modules together: more than the modules on one line."""
 
 
 def _finite(source: object, attribute: "Attribute[float]", value: float) -> None:
@@ -68,27 +67,27 @@ def _positive(source: object, attribute: "Attribute[float]", value: float) -> No
 
 @frozen
 class Fixed:
-    """Always the same, or an open wire."""
+    """A constant value, or an open wire."""
 
     signal: Signal | None
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """What it can give."""
+        """The values that it can return."""
         return (self.signal,)
 
     def sample(self, number: int) -> Signal | None:  # noqa: ARG002 - the same for all
-        """Tell what is there at the sample of that number."""
+        """Return the value at a sample number."""
         return self.signal
 
 
 OPEN = Fixed(OPEN_WIRE)
-"""No wire is connected."""
+"""An open wire: nothing is connected."""
 
 
 @frozen
 class Ramp:
-    """From `low` up towards `high` in `period`, and at once back to `low`.
+    """A sawtooth: from `low` up towards `high` in `period`, then at once back to `low`.
 
     Unit: `period` in seconds.
     Errors: `InvalidValueError`.
@@ -108,11 +107,11 @@ class Ramp:
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """The lowest and the highest that it can give."""
+        """The lowest and the highest value."""
         return Signal(self.low, self.unit), Signal(self.high, self.unit)
 
     def sample(self, number: int) -> Signal | None:
-        """Tell what is there at the sample of that number."""
+        """Return the value at a sample number."""
         done = _phase(number, self.period)
         value = self.low * (1 - done) + self.high * done  # never more than the larger of both, as high - low might be
         return Signal(min(max(value, self.low), self.high), self.unit)
@@ -120,7 +119,7 @@ class Ramp:
 
 @frozen
 class Sine:
-    """Up and down around `mean`, which it starts from.
+    """A sine around `mean`, which is its first value.
 
     Unit: `period` in seconds.
     Errors: `InvalidValueError`.
@@ -139,19 +138,19 @@ class Sine:
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """The lowest and the highest that it can give."""
+        """The lowest and the highest value."""
         return Signal(self.mean - self.amplitude, self.unit), Signal(self.mean + self.amplitude, self.unit)
 
     def sample(self, number: int) -> Signal | None:
-        """Tell what is there at the sample of that number."""
+        """Return the value at a sample number."""
         return Signal(self.mean + self.amplitude * sin(2 * pi * _phase(number, self.period)), self.unit)
 
 
 @frozen
 class Noise:
-    """Normally distributed around `mean`, anew at each sample; what is rarer than 4 deviations is cut off.
+    """Normally distributed values around `mean`, new at each sample and limited to 4 deviations.
 
-    Special: the same seed has the same noise.
+    Special: the same seed repeats the noise.
     Errors: `InvalidValueError`.
 
     >>> Noise(5, 0.1, Unit.VOLT, seed=1).sample(7) == Noise(5, 0.1, Unit.VOLT, seed=1).sample(7)
@@ -168,12 +167,12 @@ class Noise:
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """The lowest and the highest that it can give."""
+        """The lowest and the highest value."""
         most = _MOST_DEVIATIONS * self.deviation
         return Signal(self.mean - most, self.unit), Signal(self.mean + most, self.unit)
 
     def sample(self, number: int) -> Signal | None:
-        """Tell what is there at the sample of that number."""
+        """Return the value at a sample number."""
         deviations = Random(f"{self.seed} {number}").gauss(0.0, 1.0)  # noqa: S311 - no secret
         deviations = min(max(deviations, -_MOST_DEVIATIONS), _MOST_DEVIATIONS)
         return Signal(self.mean + self.deviation * deviations, self.unit)
@@ -185,10 +184,10 @@ def _doubles(values: Iterable[float]) -> "array[float]":
 
 @frozen(cache_hash=True)
 class Recorded:
-    """What was recorded: each row holds until the next one, the last for ever, and the first before its time too.
+    """Recorded values: each holds until the next row, the last for ever; the first also holds before its time.
 
-    Shape: `seconds` of each row, ascending, and as many `values`, nan where the wire is open. An array is kept as it
-        is; do not change it.
+    Shape: `seconds` of each row, ascending, and as many `values`, nan for an open wire. Arrays are not copied; do not
+        change them.
     Errors: `InvalidValueError`.
 
     >>> from math import nan
@@ -213,13 +212,13 @@ class Recorded:
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:
-        """The lowest and the highest that it can give, and an open wire if there is one."""
+        """The lowest and the highest value, and an open wire if there is one."""
         known = [value for value in self.values if not isnan(value)]
         found = [Signal(value, self.unit) for value in (min(known), max(known))] if known else []
         return (*found, OPEN_WIRE) if len(known) < len(self.values) else tuple(found)
 
     def sample(self, number: int) -> Signal | None:
-        """Tell what is there at the sample of that number."""
+        """Return the value at a sample number."""
         row = bisect_right(self.seconds, number / SAMPLES_A_SECOND) - 1
         value = self.values[max(row, 0)]
         return OPEN_WIRE if isnan(value) else Signal(value, self.unit)
@@ -229,7 +228,7 @@ Source: TypeAlias = Fixed | Ramp | Sine | Noise | Recorded
 
 
 def _phase(number: int, period: float) -> float:
-    """Tell how much of the period has passed: 0.0 up to less than 1.0."""
+    """Return the elapsed part of the period: 0.0 up to less than 1.0."""
     samples = period * SAMPLES_A_SECOND
     return number % samples / samples
 
@@ -239,10 +238,9 @@ def _phase(number: int, period: float) -> float:
 
 @frozen(cache_hash=True)
 class Sources:
-    """What is connected to a module, channel 0 first; inputs that are not named are open.
+    """The sources connected to a module, channel 0 first; inputs without a source are open.
 
-    Errors: `InvalidValueError` for a cold junction that is ever something else than a temperature that `Signals` can
-        have.
+    Errors: `InvalidValueError` for a cold junction that can be anything but a valid temperature of `Signals`.
 
     >>> sources = Sources((Ramp(0, 10, 60, Unit.VOLT), OPEN))
     >>> sources.at(15.07).channels, sources.at(15.07) is sources.at(15.0)
@@ -252,7 +250,7 @@ class Sources:
     channels: tuple[Source, ...] = ()
     cold_junction: Source = Fixed(Signal(_ROOM_TEMPERATURE, Unit.CELSIUS))
     _constant: Signals | None = field(init=False, eq=False, repr=False)
-    """What is there if it never changes."""
+    """The signals, if they never change."""
 
     def __attrs_post_init__(self) -> None:
         for signal in self.cold_junction.extremes:
@@ -261,10 +259,10 @@ class Sources:
         object.__setattr__(self, "_constant", _sample(self, 0) if constant else None)
 
     def at(self, seconds: float) -> Signals:
-        """Tell what is there: the last sample, and the same object while nothing changes.
+        """Return the signals at a time: those of the last sample, and the same object while nothing changes.
 
         Time: seconds from the start.
-        Errors: `InvalidValueError` for what is no such time.
+        Errors: `InvalidValueError` for an invalid time.
         """
         if not 0 <= seconds < inf:
             raise InvalidValueError("seconds", seconds, "0 or more", "")
@@ -283,14 +281,14 @@ _remembered_sample = lru_cache(_REMEMBERED)(_sample)
 
 @lru_cache(_REMEMBERED)
 def _one(signals: Signals) -> Signals:
-    """Give one object for all that are equal."""
+    """Return one object for all equal signals."""
     return signals
 
 
 def _temperature(signal: Signal | None) -> float:
-    """Tell the temperature of a cold junction.
+    """Return the temperature of a cold junction.
 
-    Errors: `InvalidValueError`, also from `Signals`, which knows the limits.
+    Errors: `InvalidValueError`, also from `Signals`, which checks the limits.
     """
     if signal is None or signal.unit is not Unit.CELSIUS:
         raise InvalidValueError(COLD_JUNCTION, signal, "a temperature in degC", "2.11")
@@ -298,7 +296,7 @@ def _temperature(signal: Signal | None) -> float:
 
 
 def default_sources(eeprom: Eeprom) -> Sources:
-    """Tell what is connected to a module when nothing is said: to each channel something else within its span.
+    """Return the default sources of a module: a different value within the span for each channel.
 
     Special: the cold junction has 25 degC.
 

@@ -1,7 +1,7 @@
-"""TCP, with the bytes as they are on the line.
+"""Raw TCP connections to a simulated bus.
 
-Laws: a host that does not read loses what it is sent, as on a line; nothing waits for it. However much a host sends,
-the others get their turn; however many hosts come, `MOST_CONNECTIONS` are served at a time.
+Laws: a host that does not read loses bytes, as on a real line; the simulator never waits for it. Hosts take turns,
+however much one sends. At most `MOST_CONNECTIONS` hosts are served at a time.
 """
 
 import asyncio
@@ -20,28 +20,28 @@ __all__ = ["LOOPBACK", "MOST_CONNECTIONS", "Connection", "listen"]
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
-"""Hosts that one listener serves at a time; the connections of further ones are closed at once."""
+"""The number of hosts that one listener serves at a time; further connections are closed at once."""
 _MOST_UNREAD = 1 << 16
 _AT_ONCE = 1024
-"""Bytes of a host that are heard before it is another's turn."""
+"""The number of bytes of a host that are processed before the next host."""
 _PAUSE = 1.0
-"""Seconds after which connections are accepted again, once one could not be."""
+"""The seconds before connections are accepted again after an error."""
 _ATTEMPTS = 10
-"""Ports that are tried until one is free at all addresses."""
+"""The number of ports to try until one is free at all addresses."""
 _UNAVAILABLE = errno.EAFNOSUPPORT, errno.EADDRNOTAVAIL
-"""Errors of an address that a name has, and this machine does not, as where IPv6 is turned off."""
+"""Errors of an address that a name has but this machine does not, for example without IPv6."""
 
 
 class Connection(asyncio.BufferedProtocol):
-    """A host on the network, whose bytes are those of the line."""
+    """A network connection of a host that sends and receives raw bytes."""
 
     def __init__(self, simulator: Simulator, name: str, connections: "set[Connection]") -> None:
-        """Make one that is in `connections` for as long as the host, whose address is `name`, is there."""
+        """Create a connection that is in `connections` while the host, whose address is `name`, is connected."""
         self.simulator = simulator
         self.name = name
         self.connections = connections
         self.ended = False
-        """Whether the host sends nothing more."""
+        """Whether the host has closed its sending side."""
         self._received = bytearray(_AT_ONCE)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -51,35 +51,35 @@ class Connection(asyncio.BufferedProtocol):
         self.connections.add(self)
 
     def get_buffer(self, sizehint: int) -> bytearray:  # noqa: ARG002 - it is always the same
-        """Tell where to put what the host sends."""
+        """Return the buffer for the next bytes of the host."""
         return self._received
 
     def buffer_updated(self, nbytes: int) -> None:
-        """Take what was put there."""
+        """Process the bytes in the buffer."""
         self.receive(bytes(self._received[:nbytes]))
 
     def receive(self, data: bytes) -> None:
-        """Take what the host sends."""
+        """Process the bytes that the host sends."""
         self.host.receive(data)
 
     def eof_received(self) -> bool:
-        """Close the connection once a host that sends nothing more has all its answers."""
+        """Close the connection once a host that sends nothing more has all its responses."""
         self.ended = True
         self.host.finish(self.transport.close)
         return True
 
     def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002 - however it was lost
-        """Forget the host."""
+        """Remove the host."""
         self.host.close()
         self.connections.discard(self)
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self.connections.discard(self)
         self.transport.abort()
 
     def write(self, data: bytes) -> None:
-        """Send to the host, unless it has not read for long, or is gone."""
+        """Send bytes to the host, unless it reads too slowly or is disconnected."""
         if self.transport.is_closing():
             return
         if self.transport.get_write_buffer_size() < _MOST_UNREAD:
@@ -96,11 +96,11 @@ async def listen(
     *,
     connection: type[Connection] = Connection,
 ) -> AsyncIterator[str]:
-    """Wait for hosts on the network; the value is where: ``127.0.0.1:5020``.
+    """Listen for hosts on the network; the value is the place: ``127.0.0.1:5020``.
 
-    Shape: `host` is an address, or a name; empty or ``*`` is every address of this machine. Port 0 is any that is free.
-        If the host has several addresses, all of them have the same port, and the value is the first, IPv4 before IPv6.
-    Errors: `OSError` where it cannot.
+    Shape: `host` is an address, or a name; empty or ``*`` is every address of this machine. Port 0 selects a free port.
+        If the host has several addresses, all of them use the same port, and the value is the first, IPv4 before IPv6.
+    Errors: `OSError` if listening fails.
     """
     with ExitStack() as opened:
         sockets = [opened.enter_context(one) for one in _bound(await _addresses(host, port))]
@@ -122,9 +122,9 @@ async def listen(
 async def _accept(
     simulator: Simulator, listening: socket.socket, connections: set[Connection], connection: type[Connection]
 ) -> None:
-    """Accept connections, as many as there is room for.
+    """Accept connections, up to the limit.
 
-    Special: one that cannot be accepted, as there are no file descriptors, is left waiting for a while.
+    Special: a connection that cannot be accepted, for example without free file descriptors, waits for a while.
     """
     loop = asyncio.get_running_loop()
     while True:
@@ -152,7 +152,7 @@ _Address = tuple[socket.AddressFamily, tuple[Any, ...]]
 
 
 async def _addresses(host: str, port: int) -> list[_Address]:
-    """Find the addresses of a host, IPv4 first."""
+    """Return the addresses of a host, IPv4 first."""
     name = None if host in ("", "*") else host
     try:
         found = await asyncio.get_running_loop().getaddrinfo(

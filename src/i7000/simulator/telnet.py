@@ -1,8 +1,8 @@
-"""One end of a Telnet connection without I/O: data, options and subnegotiations, in the order in which they come.
+"""One end of a Telnet connection without I/O: data, options and subnegotiations, in order of arrival.
 
 Sections: RFC 854 (commands), RFC 855 (options and subnegotiations).
-Laws: any bytes in any pieces are taken; no more than `LONGEST_SUBNEGOTIATION` bytes are kept; what changes nothing gets
-no reply, and the replies about an option are limited, so that two ends never answer each other for ever.
+Laws: any bytes in any pieces are accepted. At most `LONGEST_SUBNEGOTIATION` bytes are kept. A negotiation that changes
+nothing gets no reply, and the replies about an option are limited, so two ends never answer each other for ever.
 """
 
 from collections import Counter
@@ -32,14 +32,14 @@ __all__ = [
 SE, SB, WILL, WONT, DO, DONT, IAC = 240, 250, 251, 252, 253, 254, 255
 
 LONGEST_SUBNEGOTIATION = 256
-"""Bytes of a subnegotiation; a longer one is skipped."""
+"""The maximum length of a subnegotiation in bytes; a longer one is skipped."""
 MOST_REPLIES = 8
-"""Replies about one option."""
+"""The maximum number of replies about one option."""
 
 
 @frozen
 class Negotiation:
-    """A ``WILL``, ``WONT``, ``DO`` or ``DONT``, and the option that it is about."""
+    """A ``WILL``, ``WONT``, ``DO`` or ``DONT``, and its option."""
 
     verb: int
     option: int
@@ -47,13 +47,13 @@ class Negotiation:
 
 @frozen
 class Subnegotiation:
-    """What stands between ``IAC SB`` and ``IAC SE``: the option first."""
+    """The content between ``IAC SB`` and ``IAC SE``; the option comes first."""
 
     content: bytes
 
 
 def escaped(data: bytes) -> bytes:
-    r"""Escape data, so that no byte of it is taken for a command.
+    r"""Escape data, so that no byte is mistaken for a command.
 
     >>> escaped(b"\xfe\xff")
     b'\xfe\xff\xff'
@@ -62,7 +62,7 @@ def escaped(data: bytes) -> bytes:
 
 
 def subnegotiation(content: bytes) -> bytes:
-    r"""Write a subnegotiation.
+    r"""Encode a subnegotiation.
 
     >>> subnegotiation(b"\x2c\x65\xff")
     b'\xff\xfa,e\xff\xff\xff\xf0'
@@ -75,12 +75,12 @@ class Telnet:
 
     def __init__(self) -> None:
         self._command: tuple[int, ...] = ()
-        """``IAC``, or ``IAC`` and a verb, of a command that is not whole yet."""
+        """An incomplete command: ``IAC``, or ``IAC`` and a verb."""
         self._content: bytearray | None = None
-        """What has come of a subnegotiation."""
+        """The received part of a subnegotiation."""
 
     def receive(self, data: bytes) -> Iterator[bytes | Negotiation | Subnegotiation]:
-        r"""Split what the peer sends.
+        r"""Split the bytes from the peer into data, negotiations and subnegotiations.
 
         Special: a command in the middle of a subnegotiation ends it; other commands have no effect.
 
@@ -115,7 +115,7 @@ class Telnet:
             self._content.append(byte)
 
     def _ended(self, command: tuple[int, ...], byte: int) -> Negotiation | Subnegotiation | None:
-        """Return what a command means that `byte` is the last of."""
+        """Return the result of a command that ends with `byte`."""
         if command != (IAC,):
             return Negotiation(command[1], byte)
         content, self._content = self._content, bytearray() if byte == SB else None
@@ -125,9 +125,9 @@ class Telnet:
 
 
 class Options:
-    """Which options are on, at this end and at the peer's (RFC 855).
+    """The options that are on, at this end and at the peer's (RFC 855).
 
-    Shape: `ours` are the options that this end can use, `theirs` those that the peer may.
+    Shape: `ours` are the options that this end can use, `theirs` those that the peer may use.
     """
 
     def __init__(self, ours: AbstractSet[int], theirs: AbstractSet[int]) -> None:
@@ -144,7 +144,7 @@ class Options:
     def answer(self, negotiation: Negotiation) -> bytes:
         """Return the reply to a negotiation; empty if there is none.
 
-        Special: an unknown option is refused once, and of a known one `MOST_REPLIES` changes are answered.
+        Special: an unknown option is refused once; for a known one, `MOST_REPLIES` changes are answered.
         """
         yes, no = (WILL, WONT) if negotiation.verb in (DO, DONT) else (DO, DONT)
         key = yes, negotiation.option
@@ -162,5 +162,5 @@ class Options:
         return bytes((IAC, yes if wanted and possible else no, negotiation.option))
 
     def is_on(self, option: int) -> bool:
-        """Whether an option is on at one of the ends."""
+        """Return whether an option is on at one of the ends."""
         return (WILL, option) in self._on or (DO, option) in self._on

@@ -1,7 +1,7 @@
-"""The folder ``spec/`` as it is installed: tables, vectors, stories, errata and schemas, as JSON files.
+"""The installed folder ``spec/``: tables, vectors, stories, errata and schemas, as JSON files.
 
-A wheel has the files in this package. In a checkout, and so in an editable install, they are in its ``spec/``; `files`
-returns the folder wherever it is. ``README.md`` in it explains the files.
+In a wheel, the files are in this package. In a checkout or an editable install, they are in its ``spec/``. `files`
+returns the folder in both cases. Its ``README.md`` explains the files.
 """
 
 from importlib import resources
@@ -12,7 +12,7 @@ __all__ = ["files"]
 
 
 def files() -> Traversable:
-    """Return the folder that has ``README.md``, ``errata.json``, ``schema``, ``stories``, ``tables`` and ``vectors``.
+    """Return the folder with ``README.md``, ``errata.json``, ``schema``, ``stories``, ``tables`` and ``vectors``.
 
     >>> import json
     >>> commands = json.loads(files().joinpath("tables", "dcon_commands.json").read_text("utf-8"))

@@ -1,8 +1,8 @@
 """Hypothesis strategies for the public classes: the vocabulary here, the rest in `dcon`, `modbus`, `device`, `host`.
 
-Laws: what a strategy draws is valid unless its name says otherwise; the smallest example is the plainest one: address
-01, channel 0, no checksum, the I-7017 (for Modbus the M-7017) with its newest firmware. `st.from_type` knows every
-public class of `i7000` and its packages as soon as Hypothesis is imported.
+Laws: strategies draw valid values unless the name says otherwise. The smallest example is the simplest one: address 01,
+channel 0, no checksum, the I-7017 (for Modbus the M-7017) with its newest firmware. `st.from_type` knows every public
+class of `i7000` and its packages as soon as Hypothesis is imported.
 """
 
 from enum import Enum
@@ -11,7 +11,7 @@ from typing import Any
 
 
 def register() -> None:
-    """Register the strategies of all public classes with Hypothesis, as its documentation says."""
+    """Register the strategies of all public classes with Hypothesis."""
     from hypothesis.strategies import register_type_strategy  # noqa: PLC0415 - it may be being imported
 
     import i7000.dcon  # noqa: PLC0415 - only for its names
@@ -26,7 +26,7 @@ def register() -> None:
 
 
 def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class, and the strategy for it
-    """Return the strategy for a class of the package; None for an enumeration, and for a class that has none."""
+    """Return the strategy for a class of the package; None for an enumeration, and for a class without one."""
     by_kind = {**vocabulary.BY_KIND, **maps.BY_KIND, **device.BY_KIND, **host.BY_KIND}
     if kind in by_kind:
         return by_kind[kind]()

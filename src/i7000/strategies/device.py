@@ -1,7 +1,7 @@
-"""Strategies for the model of the modules: what is on their inputs, what they remember, modules with power.
+"""Strategies for the model of the modules: input signals, memory, modules with power.
 
-Laws: what is made is what a module can be: its settings are those that it takes, and what it has heard it has heard
-frame by frame. The smallest example is a module from the factory, in whose inputs nothing is put.
+Laws: every state is one that a module can reach: it accepts its settings, and its history is a sequence of frames. The
+smallest example is a module from the factory with open inputs.
 """
 
 from collections.abc import Callable, Mapping
@@ -59,13 +59,13 @@ def _signals() -> SearchStrategy[Signal]:
 
 
 def records() -> SearchStrategy[Record]:
-    """Make records of the data logger: 16 channels at a moment."""
+    """Make records of the data logger: 16 channels at one moment."""
     return st.builds(Record, _LONG, st.tuples(*[_WORD] * 16), _LONG)
 
 
 @st.composite
 def logs(draw: st.DrawFn, now: float = 0.0) -> Log:
-    """Make data loggers, stopped or running, with some records, which are counted up to the last."""
+    """Make data loggers, stopped or running, with some records."""
     told = draw(st.lists(records(), max_size=3))
     last = draw(st.integers(len(told), 0xFFFF))
     day = st.integers(2000, 2159), st.integers(1, 12), st.integers(1, 31)
@@ -88,7 +88,7 @@ def logs(draw: st.DrawFn, now: float = 0.0) -> Log:
 
 @st.composite
 def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, now: float = 0.0) -> Eeprom:
-    """Make what modules of `models`, or of all that speak `protocol`, remember without power: anything legal."""
+    """Make memories of modules of `models`, or of all that use `protocol`: any valid settings."""
     able = [model for model in models or Model if protocol in (None, *model.protocols)]
     made = factory(draw(st.sampled_from(able)), draw(st.none() | firmwares()))
     if not draw(st.booleans()):
@@ -132,7 +132,7 @@ def eeproms(draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, n
 def states(
     draw: st.DrawFn, *models: Model, protocol: Protocol | None = None, now: float = 0.0, dialogue: int = 3
 ) -> State:
-    """Make modules with power since `now`, as in `eeproms`, that have heard some frames: at most `dialogue`.
+    """Make modules with power since `now`, as in `eeproms`, that have received some frames: at most `dialogue`.
 
     Special: without `protocol`, some are in INIT mode.
     """
@@ -144,7 +144,7 @@ def states(
 
 
 def frames(state: State) -> SearchStrategy[bytes]:
-    """Make frames to a module, in the protocol that it speaks; also such as it refuses or does not have."""
+    """Make frames for a module, in its protocol; including commands that it refuses or does not have."""
     own = state.ram.address
     if state.ram.protocol is Protocol.MODBUS_RTU:
         return any_requests(state.profile).map(
@@ -164,7 +164,7 @@ def _buses() -> SearchStrategy[Bus]:
 
 
 def uarts() -> SearchStrategy[Uart]:
-    """Make settings of one end of a line, mostly such as modules have."""
+    """Make settings of one end of a line, mostly those that modules have."""
     rates = st.sampled_from([rate.bits_per_second for rate in BaudRate]) | st.integers(1, 1_000_000)
     return st.builds(
         Uart,
@@ -177,7 +177,7 @@ def uarts() -> SearchStrategy[Uart]:
 
 @st.composite
 def _hearings(draw: st.DrawFn) -> tuple[Ear, tuple[Heard, ...]]:
-    """Let a module or two hear some of a frame, a frame or noise."""
+    """Make the results of giving frames or noise to one or two modules."""
     modules = draw(st.lists(states(dialogue=0), min_size=1, max_size=2))
     frame = draw(frames(modules[0]) | st.binary(min_size=1, max_size=8))
     sent = frame[: draw(st.integers(1, len(frame)))] if draw(st.booleans()) else frame

@@ -1,7 +1,6 @@
-"""Strategies for the host's half of the conversation: policies, lines in the midst of a request, events.
+"""Strategies for the host side: policies, lines during a request, events.
 
-Laws: a line is in a state that it can come to: what happened to it was sent, heard or waited for. The smallest example
-is a line on which nothing has happened.
+Laws: every line is in a reachable state, after sending, receiving and waiting. The smallest example is an unused line.
 """
 
 from collections.abc import Callable, Mapping
@@ -38,13 +37,13 @@ _LINES = line_settings(Profile(Model.M_7017))
 
 
 def policies() -> SearchStrategy[Policy]:
-    """Make policies, the usual one first."""
+    """Make policies, the default first."""
     seconds = st.just(0.2) | st.floats(0, 5)
     return st.builds(Policy, retries=st.sampled_from((2, 0, 1, 3)), turnaround=seconds, grace=seconds)
 
 
 def exchanges() -> SearchStrategy[tuple[Profile, AnyCommand, Any, bytes]]:
-    """Make exchanges by either protocol: a profile, what is sent, its answer, and the bytes of the answer."""
+    """Make exchanges of either protocol: a profile, a message, its response, and the bytes of the response."""
     by_dcon = dcon_strategies.exchanges().map(lambda it: (it.profile, it.command, it.response, it.response_wire))
     by_modbus = modbus_strategies.exchanges().map(lambda it: (it.profile, it.request, it.response, it.response_wire))
     return by_dcon | by_modbus
@@ -52,7 +51,7 @@ def exchanges() -> SearchStrategy[tuple[Profile, AnyCommand, Any, bytes]]:
 
 @st.composite
 def buses(draw: st.DrawFn) -> Bus[Any]:
-    """Make lines on which a request is open, is over or was never sent, whatever was heard."""
+    """Make lines with a request that is open, over or never sent, after any received bytes."""
     bus = Bus[Any](draw(_LINES), draw(policies()), draw(st.booleans()))
     now = 0.0
     for _ in range(draw(st.integers(0, 2))):
@@ -67,7 +66,7 @@ def buses(draw: st.DrawFn) -> Bus[Any]:
 
 
 def _outcomes(kind: type[Ended]) -> SearchStrategy[Ended]:
-    """Make outcomes of a class that has nothing but its command."""
+    """Make outcomes of a class with only a command."""
     return exchanges().map(lambda it: kind(it[1]))
 
 
@@ -81,7 +80,7 @@ def _to_all(request: modbus.WriteSingleCoil) -> modbus.WriteSingleCoil:
 
 
 def _answers(*, declined: bool) -> SearchStrategy[Any]:
-    """Make the outcomes of requests that were answered."""
+    """Make outcomes of answered requests."""
     refusals = dcon.Refused | modbus.ExceptionResponse
     kind = Declined if declined else Answered
     return exchanges().filter(lambda it: isinstance(it[2], refusals) is declined).map(lambda it: kind(it[1], it[2]))

@@ -1,4 +1,4 @@
-"""Strategies for the values that all protocols share: profiles, settings, readings, errors."""
+"""Strategies for the values that both protocols share: profiles, settings, readings, errors."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -52,7 +52,7 @@ def addresses() -> SearchStrategy[int]:
 
 
 def firmwares() -> SearchStrategy[Firmware]:
-    """Make firmware versions, most of them from the time in which the modules changed."""
+    """Make firmware versions, most of them near the versions that added features."""
     deciding = st.builds("B{}.{}".format, st.integers(1, 4), st.integers(0, 9))
     return (deciding | st.from_regex(r"[A-Z][0-9](\.[0-9]{1,2}|[0-9]{2})", fullmatch=True)).map(Firmware)
 
@@ -61,7 +61,7 @@ def firmwares() -> SearchStrategy[Firmware]:
 def profiles(draw: st.DrawFn, *models: Model, known_types: bool = False) -> Profile:
     """Make profiles of `models`, or of all, in every combination that a module has.
 
-    Shape: with `known_types` there is a type code for every channel; without, there may be none.
+    Shape: with `known_types` there is a type code for every channel; without, there may be no type codes.
     """
     model = draw(st.sampled_from(models or tuple(Model)))
     profile = Profile(
@@ -84,7 +84,7 @@ def profiles(draw: st.DrawFn, *models: Model, known_types: bool = False) -> Prof
 
 
 def supported_types(profile: Profile) -> list[TypeCode]:
-    """List the types that the module can be set to, the factory's first."""
+    """Return the types that the module can be set to, the factory type first."""
     codes = [code for code, since in profile.model.type_codes.items() if profile.runs(since)]
     return sorted(codes, key=lambda code: code is not profile.model.default_type)
 
@@ -93,7 +93,7 @@ def supported_types(profile: Profile) -> list[TypeCode]:
 
 
 def line_settings(profile: Profile | None = None) -> SearchStrategy[LineSettings]:
-    """Make settings of the line: those that the module of `profile` can be set to, or any byte."""
+    """Make line settings: those that the module of `profile` can be set to, or any byte."""
 
     def settable(line: LineSettings) -> bool:
         if profile is None:
@@ -106,7 +106,7 @@ def line_settings(profile: Profile | None = None) -> SearchStrategy[LineSettings
 
 
 def report_settings(profile: Profile | None = None) -> SearchStrategy[ReportSettings]:
-    """Make settings of the reports: those that the module of `profile` can be set to, or any byte."""
+    """Make report settings: those that the module of `profile` can be set to, or any byte."""
 
     def settable(report: ReportSettings) -> bool:
         if profile is None:
@@ -122,7 +122,7 @@ def report_settings(profile: Profile | None = None) -> SearchStrategy[ReportSett
 
 
 def readings(type_code: TypeCode, data_format: DataFormat) -> SearchStrategy[Reading]:
-    """Make readings that a DCON field says exactly: on the counts of the format, out of range, disabled."""
+    """Make readings that a DCON field expresses exactly: on the counts of the format, out of range, disabled."""
     if data_format is DataFormat.HEX:
         words = word_readings(type_code, ModbusDataFormat.HEX)
         return _some_of(Status.DISABLED, words.filter(lambda reading: _is_written(reading, type_code)))
@@ -139,7 +139,7 @@ def _is_written(reading: Reading, type_code: TypeCode) -> bool:
 
 
 def _some_of(status: Status, others: SearchStrategy[Reading]) -> SearchStrategy[Reading]:
-    """Give one reading in ten a status instead of a value."""
+    """Replace one reading in ten by a status."""
     return st.builds(
         lambda reading, chosen: Reading(None, reading.unit, status) if chosen else reading,
         others,
@@ -148,7 +148,7 @@ def _some_of(status: Status, others: SearchStrategy[Reading]) -> SearchStrategy[
 
 
 def text_counts(type_code: TypeCode, data_format: DataFormat) -> tuple[int, int, int]:
-    """Tell the lowest and the highest count of the span in a text format, and its digits after the point."""
+    """Return the lowest and the highest count of the span in a text format, and its digits after the point."""
     low, high = type_code.minimum, type_code.maximum
     if data_format is DataFormat.ENGINEERING:
         scale = 10**type_code.decimals
@@ -159,7 +159,7 @@ def text_counts(type_code: TypeCode, data_format: DataFormat) -> tuple[int, int,
 
 
 def word_readings(type_code: TypeCode, data_format: ModbusDataFormat) -> SearchStrategy[Reading]:
-    """Make readings that a 16-bit word says exactly, out of range included."""
+    """Make readings that a 16-bit word expresses exactly, out of range included."""
     if data_format is ModbusDataFormat.HEX:
         return st.integers(0, 0xFFFF).map(lambda word: decode_word(word, type_code))
     scale = 10**type_code.modbus_decimals

@@ -1,4 +1,4 @@
-"""Strategies for bytes of both protocols: what can be done to a frame, and the pieces in which a stream arrives."""
+"""Strategies for bytes of both protocols: damaged frames, and the pieces in which a stream arrives."""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -9,21 +9,21 @@ from hypothesis.strategies import SearchStrategy
 __all__ = ["Damage", "Damages", "chunkings", "damaged_by", "each_byte", "flipped_bits"]
 
 Damages = Mapping[str, Callable[[bytes], Iterator[bytes]]]
-"""What can happen to a frame, by its label: every one of the wires that may come of it."""
+"""The kinds of damage by label: each returns all wires that may result."""
 
 
 @frozen
 class Damage:
-    """A frame, what was done to it, and the bytes that came of it, which are others."""
+    """A frame, its damage, and the resulting bytes, which differ from the frame."""
 
     label: str
-    """One of `DAMAGES` of the protocol."""
+    """The label of the damage, from `DAMAGES` of the protocol."""
     frame: bytes
     wire: bytes
 
 
 def damaged_by(damages: Damages, frame: bytes) -> SearchStrategy[Damage]:
-    """Make damaged frames of a frame."""
+    """Make damaged variants of a frame."""
     labels = [label for label, damage in damages.items() if any(wire != frame for wire in damage(frame))]
     return st.sampled_from(labels).flatmap(lambda label: _damaged(frame, label, damages[label]))
 
@@ -34,12 +34,12 @@ def _damaged(frame: bytes, label: str, damage: Callable[[bytes], Iterator[bytes]
 
 
 def each_byte(damage: Callable[[bytes, bytes, bytes], bytes]) -> Callable[[bytes], Iterator[bytes]]:
-    """Do `damage` to each byte, between what is before and after it."""
+    """Return a function that yields a wire for each byte of a frame with `damage` applied to it."""
     return lambda frame: (damage(frame[:at], frame[at : at + 1], frame[at + 1 :]) for at in range(len(frame)))
 
 
 def flipped_bits(frame: bytes) -> Iterator[bytes]:
-    """Flip each bit."""
+    """Yield a wire for each flipped bit."""
     for at, byte in enumerate(frame):
         for bit in range(8):
             yield frame[:at] + bytes((byte ^ 1 << bit,)) + frame[at + 1 :]

@@ -1,7 +1,7 @@
-"""Strategies for DCON frames: what can be done to them, and the streams in which they come.
+"""Strategies for DCON frames: damaged frames, and streams of frames and noise.
 
-Laws: what happens to a frame has a name and leaves other bytes; what there is to find in a stream is known from the way
-it was made, not from `i7000.dcon.split`.
+Laws: every damage has a name and changes the bytes. The expected frames of a stream are known from how it was made, not
+from `i7000.dcon.split`.
 """
 
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ __all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "nea
 
 
 def damaged(frame: bytes) -> SearchStrategy[Damage]:
-    """Make damaged frames of a frame, sealed or not."""
+    """Make damaged variants of a frame, with or without checksum."""
     return damaged_by(DAMAGES, frame)
 
 
@@ -43,14 +43,14 @@ DAMAGES: Damages = {
     "early end": each_byte(lambda before, byte, after: before + b"\r" + byte + after),
     "glued": lambda frame: iter((frame + frame,)),
 }
-"""What can happen to a frame, by its label: every one of the wires that may come of it."""
+"""The kinds of damage by label: each returns all wires that may result."""
 
 _OF_FIELDS = b"+-. 09AF" + b"Ga_"
-"""What fields are made of, and what a lax parser of numbers takes as well."""
+"""The characters of fields, and those that a lax number parser accepts as well."""
 
 
 def near_misses(frame: bytes, *, checksum: bool) -> Iterator[bytes]:
-    """Yield frames with one character of a field in a place where another stood, each with its right checksum."""
+    """Yield frames with one character of a field replaced, each with its correct checksum."""
     body = unseal(frame, checksum=checksum)
     for at in range(1, len(body)):
         for character in _OF_FIELDS:
@@ -70,23 +70,23 @@ def _text(alphabet: bytes, smallest: int, longest: int) -> SearchStrategy[bytes]
 
 
 def _beginnings() -> SearchStrategy[bytes]:
-    """Make frames that have not ended."""
+    """Make incomplete frames."""
     return st.builds(bytes.__add__, st.sampled_from([bytes((lead,)) for lead in _LEADS]), _text(_PLAIN, 0, 20))
 
 
 def frames(*, checksum: bool = False) -> SearchStrategy[bytes]:
-    """Make frames that `i7000.dcon.split` takes for whole, whether or not they are messages."""
+    """Make frames that `i7000.dcon.split` accepts as complete, whether or not they are messages."""
     return _beginnings().map(lambda body: seal(body, checksum=checksum))
 
 
 @frozen
 class Stream:
-    """What a line delivered, and what there is to find in it."""
+    """Received bytes, and the expected frames and noise."""
 
     wire: bytes
     checksum: bool
     events: tuple[bytes | Noise, ...]
-    """Frames, and the noise between them in runs as long as can be, but for a frame with a wrong checksum."""
+    """The frames, and the longest runs of noise between them; a frame with a wrong checksum is a run of its own."""
     rest: bytes
 
 

@@ -1,7 +1,7 @@
 """Strategies for DCON messages and for whole exchanges.
 
-Laws: the strategy of a message is made from its syntax, part by part, so a new command has one at once; what a module
-is held to take is asked of the message's own `check`.
+Laws: strategies are made from the syntax of a message, part by part, so new commands need no code here. The message's
+own `check` decides what a module accepts.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -54,7 +54,7 @@ MessageT = TypeVar("MessageT", bound=Message)
 R = TypeVar("R", bound=Response)
 
 _COMMANDS = sorted(COMMANDS, key=lambda command: (issubclass(command, Broadcast), len(command.syntax)))
-"""The simplest first: `ReadAnalogInputs`."""
+"""The commands, the simplest first: `ReadAnalogInputs`."""
 _MESSAGES: tuple[type[Message], ...] = tuple(
     dict.fromkeys((*_COMMANDS, Refused, *(kind.response for kind in _COMMANDS if issubclass(kind, Command))))
 )
@@ -64,22 +64,22 @@ _MESSAGES: tuple[type[Message], ...] = tuple(
 
 @st.composite
 def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = None) -> MessageT:
-    """Make messages of a class, abstract or not, as any module might send or be sent them.
+    """Make messages of a class, abstract or not, that some module can send or receive.
 
-    Shape: every value that has a place in the digits that the message has with `profile`, or with some profile.
+    Shape: every value that fits in the digits of the message with `profile`, or with some profile.
     """
     kinds = [each for each in _MESSAGES if issubclass(each, kind)]
     return cast("MessageT", draw(_any_of(kinds, profile or draw(profiles()), accepted=False)))
 
 
 def commands(profile: Profile, *kinds: type[AnyCommand]) -> SearchStrategy[AnyCommand]:
-    """Make commands and broadcasts that `i7000.dcon.encode` takes for `profile`, of all `kinds` that the module has."""
+    """Make commands and broadcasts that `i7000.dcon.encode` accepts for `profile`, of the `kinds` it has."""
     kinds = tuple(kind for kind in kinds or _COMMANDS if kind.availability not in profile.refused)
     return _any_of(kinds, profile, accepted=True)
 
 
 def any_commands(profile: Profile) -> SearchStrategy[AnyCommand]:
-    """Make commands and broadcasts that a module might be sent, also those that it does not have or take."""
+    """Make commands and broadcasts for a module, including those that it does not have or refuses."""
     return _any_of(_COMMANDS, profile, accepted=False)
 
 
@@ -98,7 +98,7 @@ def _any_of(draw: st.DrawFn, kinds: Sequence[type[Message]], profile: Profile, *
 
 
 def responses(command: Command[R], profile: Profile) -> SearchStrategy[R | Refused]:
-    """Make responses that `i7000.dcon.encode` takes for `profile`, and that answer `command`."""
+    """Make responses to `command` that `i7000.dcon.encode` accepts for `profile`."""
     repeated: dict[str, SearchStrategy[Any]] = {"address": st.just(command.answering_address)}
     if isinstance(command, ReadConfiguration) and command.address == 0:
         repeated["address"] = addresses()  # asked in INIT mode, told the stored one
@@ -118,7 +118,7 @@ def _messages(
     accepted: bool,
     fixed: Mapping[str, SearchStrategy[Any]],
 ) -> SearchStrategy[Message]:
-    """Make messages of a concrete class; with `accepted`, those that the module takes or sends."""
+    """Make messages of a concrete class; with `accepted`, only those that the module accepts or sends."""
     parts = {}
     for attribute in fields(kind):  # type: ignore[arg-type] # all concrete messages are attrs classes
         parts[attribute.name] = _part(attribute, kind, profile, accepted=accepted)
@@ -138,7 +138,7 @@ def _takes(message: Message, profile: Profile) -> bool:
 def _part(  # noqa: PLR0911 - a table
     attribute: "Attribute[Any]", kind: type[Message], profile: Profile, *, accepted: bool
 ) -> SearchStrategy[Any]:
-    """Make the values of one part of a syntax: all that have a place in it; with `accepted`, nearly only valid ones."""
+    """Make values of one part of a syntax: all that fit; with `accepted`, mostly valid ones."""
     part, origin = _part_of(attribute.type), cast("Any", attribute.type).__origin__
     if origin is bool or (isinstance(origin, type) and issubclass(origin, Enum)):
         return st.sampled_from((False, True) if origin is bool else origin)
@@ -199,14 +199,14 @@ _LIMITS: dict[Part, Callable[[Profile], int]] = {
     _part_of(parts.DiagnosticMask): lambda profile: (1 << profile.channels) - 1,
     _part_of(parts.Seconds): lambda _: LONGEST_TIMEOUT,
 }
-"""Where a module takes much less than the digits can say: not to be left to `check` alone."""
+"""Parts with much narrower limits than their digits allow; `check` alone would reject most values."""
 
 
 @cache
 def channel_fields(
     data_format: DataFormat, type_code: TypeCode | None = None, *, legacy: bool = False
 ) -> SearchStrategy[str]:
-    """Make fields of one channel as they are sent: special texts, and the readings of a type, or any number."""
+    """Make fields of one channel: sentinels, and the readings of a type, or any number."""
     special = [" " * FIELD_WIDTHS[data_format], *(("+9999", "-0000") if legacy else ())]
     if data_format is not DataFormat.HEX:
         special += ["+9999.9", "-9999.9", "+999.99", "-999.99"]
@@ -233,7 +233,7 @@ def _with_point(digits: int, sign: str, point: int) -> str:
 
 @frozen
 class Exchange:
-    """A command, what answers it, and the frames of both."""
+    """A command, its response, and the frames of both."""
 
     profile: Profile
     command: Command[Any]
@@ -244,7 +244,7 @@ class Exchange:
 
 @st.composite
 def exchanges(draw: st.DrawFn, *kinds: type[Command[Any]], profile: Profile | None = None) -> Exchange:
-    """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the command."""
+    """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any module that has the command."""
     asked = [kind for kind in kinds or _COMMANDS if issubclass(kind, Command)]
     had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
     kind = draw(st.sampled_from(had))

@@ -1,7 +1,7 @@
-"""Strategies for Modbus RTU frames: what can be done to them, and the streams in which they come.
+"""Strategies for Modbus RTU frames: damaged frames, and streams of frames and noise.
 
-Laws: what happens to a frame has a name and leaves other bytes; what there is to find in a stream is known from the way
-it was made, not from `i7000.modbus.split`.
+Laws: every damage has a name and changes the bytes. The expected frames of a stream are known from how it was made, not
+from `i7000.modbus.split`.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ __all__ = ["DAMAGES", "Damage", "Stream", "chunkings", "damaged", "frames", "str
 
 
 def damaged(frame: bytes) -> SearchStrategy[Damage]:
-    """Make damaged frames of a frame."""
+    """Make damaged variants of a frame."""
     return damaged_by(DAMAGES, frame)
 
 
@@ -33,7 +33,7 @@ def _wrong_crcs(frame: bytes) -> Iterator[bytes]:
 
 
 def _sealed(damage: Callable[[bytes], Iterator[bytes]]) -> Callable[[bytes], Iterator[bytes]]:
-    """Do `damage` to address and PDU, and make the CRC right again."""
+    """Apply `damage` to address and PDU, and compute the CRC again."""
     return lambda frame: map(seal, damage(frame[:-2]))
 
 
@@ -52,13 +52,13 @@ DAMAGES: Damages = {
     "doubled byte, right CRC": _sealed(each_byte(lambda before, byte, after: before + byte + byte + after)),
     "truncated, right CRC": _sealed(each_byte(lambda before, _, __: before)),
 }
-"""What can happen to a frame, by its label: every one of the wires that may come of it."""
+"""The kinds of damage by label: each returns all wires that may result."""
 
 # --- streams ----------------------------------------------------------------------------------------------------------
 
 _FUNCTIONS = bytes((*range(0x01, 0x07), 0x0F, 0x10, 0x46))
 _TELLING = 7
-"""Bytes that tell the length of every frame."""
+"""The number of bytes that determine the length of every frame."""
 _NO_ADDRESSES = bytes(range(0xF8, 0x100))
 _NO_FUNCTIONS = bytes(sorted(set(range(0xF8)) - {it | bit for it in _FUNCTIONS for bit in (0, 0x80)}))
 _NO_SUB_FUNCTIONS = bytes(range(0x31, 0xF8))
@@ -66,7 +66,7 @@ _NO_SUB_FUNCTIONS = bytes(range(0x31, 0xF8))
 
 @st.composite
 def frames(draw: st.DrawFn, side: Side = Side.BOTH, profile: Profile | None = None) -> bytes:
-    """Make frames of one side or both, broadcasts and exceptions among them, of one module or of any."""
+    """Make frames of one side or both, including broadcasts and exceptions, of one module or of any."""
     profile = profile or draw(profiles())
     if side is Side.BOTH:
         side = draw(st.sampled_from((Side.REQUESTS, Side.RESPONSES)))
@@ -77,14 +77,14 @@ def frames(draw: st.DrawFn, side: Side = Side.BOTH, profile: Profile | None = No
 
 @frozen
 class Stream:
-    """What a line delivered before it fell silent, and what there is to find in it."""
+    """Bytes received before a silence, and the expected frames and noise."""
 
     wire: bytes
     side: Side
     profile: Profile | None
-    """What is known beforehand of the module."""
+    """The profile of the module, if known."""
     events: tuple[bytes | Noise, ...]
-    """Frames, and the noise between them in runs as long as can be."""
+    """The frames, and the longest runs of noise between them."""
 
 
 @st.composite
@@ -141,7 +141,7 @@ def _with_wrong_crc(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Ev
 
 
 def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
-    """Cut a frame off behind the bytes that tell its length; the next one has more than those that it lacks."""
+    """Make a frame cut off after the bytes that determine its length; the next frame is longer than the rest."""
     frame = draw(frames(side, profile))
     last = len(frame) - 1
     end = draw(st.integers(max(min(_TELLING, last), last - 3), last))
@@ -149,12 +149,12 @@ def _cut_short(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
 
 
 def _unfinished(draw: st.DrawFn, side: Side, profile: Profile | None) -> _Events:
-    """Begin a frame with fewer bytes than any has."""
+    """Make the beginning of a frame, shorter than any frame."""
     return [Noise(draw(frames(side, profile))[: draw(st.integers(1, 4))], Fault.LENGTH)]
 
 
 def _is_unambiguous(wire: bytes, events: list[bytes | Noise]) -> bool:
-    """Tell whether no CRC is good but those of the frames: none that begins in noise or with a frame by accident."""
+    """Return whether only the frames have a valid CRC: no accidental one begins in noise or at a frame."""
     ends: dict[int, list[int]] = {}
     at = 0
     for event in events:
@@ -171,7 +171,7 @@ _STARTS = {bytes((function | bit,)) for function in _FUNCTIONS for bit in (0, 0x
 
 
 def _good_ends(wire: bytes, at: int) -> list[int]:
-    """Tell where a CRC is good that begins at a place: at the end of the wire, or anywhere if a function is there."""
+    """Return the places where a CRC from a given start is valid: the end of the wire, or any if a function is there."""
     if wire[at + 1 : at + 2] not in _STARTS:
         return [] if crc16(wire[at:]) else [len(wire)]
     longest = min(len(wire), at + LONGEST_FRAME)

@@ -1,7 +1,7 @@
-"""Strategies for the address maps: rows, what they hold, plans.
+"""Strategies for the address maps: rows, values, plans.
 
-Laws: a value is made from counts within the range of its row: `i7000.modbus.RegisterMap.write` takes it where the row
-can be written, `decode` gives it.
+Laws: values are within the range of their row: `i7000.modbus.RegisterMap.write` accepts them if the row is writable,
+and `decode` returns them.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,7 +21,7 @@ _HIGHEST = {Kind.UINT32: 0xFFFFFFFF, Kind.INT16: 0x7FFF}
 
 
 def register_maps() -> SearchStrategy[RegisterMap]:
-    """Make address maps, of modules whose types are known."""
+    """Make address maps of modules with known types."""
     return profiles(known_types=True).map(RegisterMap)
 
 
@@ -30,7 +30,7 @@ def registers(
 ) -> SearchStrategy[Register]:
     """Make rows of the map of a module, or of any: all, `readable` or `writable` ones.
 
-    Special: nothing where there are none: old firmware has no writable ones, an I-7000 module has no map.
+    Special: empty if there are no such rows: old firmware has no writable rows, an I-7000 module has no map.
     """
     if profile is None:
         return profiles().flatmap(lambda found: registers(found, readable=readable, writable=writable))
@@ -40,13 +40,13 @@ def registers(
 
 
 def _rows(found: RegisterMap) -> list[Register]:
-    """List the rows, ``analog_input`` first."""
+    """Return the rows, ``analog_input`` first."""
     return sorted(found, key=lambda row: row.address)
 
 
 @st.composite
 def plans(draw: st.DrawFn) -> Plan:
-    """Make plans to read some rows of a map, each thing by its name or by its first number."""
+    """Make plans to read some rows of a map, each by its name or by its first number."""
     found = draw(register_maps())
     wanted = draw(st.lists(registers(found.profile, readable=True), unique_by=lambda row: row.name, min_size=1))
     keys = [draw(st.sampled_from((row.name, row.number))) for row in wanted]
@@ -54,16 +54,16 @@ def plans(draw: st.DrawFn) -> Plan:
 
 
 def register_items(row: Register, profile: Profile) -> SearchStrategy[tuple[int, ...]]:
-    """Make the items of a row as a module may send them: any bits or words, bytes where the high one is zero."""
+    """Make items of a row as a module may send them: any bits or words; bytes for rows with a zero high byte."""
     count = _items(row, profile)
     most = 0xFF if row.kind is Kind.INT8 else 0xFFFF
     return st.tuples(*[st.booleans() if row.area.bits else st.integers(0, most)] * count)
 
 
 def register_values(row: Register, profile: Profile) -> SearchStrategy[Any]:
-    """Make what a row of the map of a module holds whose types are known: a value, or one for each channel.
+    """Make values of a row of the map of a module with known types: one, or one for each channel.
 
-    Special: of what can only be cleared, the value that clears it.
+    Special: for rows that can only be cleared, the value that clears them.
     """
     count = _items(row, profile)
     if row.kind is Kind.READING:
@@ -76,7 +76,7 @@ def register_values(row: Register, profile: Profile) -> SearchStrategy[Any]:
 
 
 def _items(row: Register, profile: Profile) -> int:
-    """Tell how many items are read at once: of channels, those of the connecting mode."""
+    """Return how many items are read at once: for channels, those of the connecting mode."""
     by_channel = row.count > 1 and row.kind not in (Kind.UINT32, Kind.RECORD)
     return min(row.count, profile.channels) if by_channel else row.count
 
@@ -102,7 +102,7 @@ _TYPED: Mapping[Any, Callable[[Profile], SearchStrategy[Any]]] = {
     Firmware: lambda _: firmwares(),
     str: lambda _: st.sampled_from(sorted({model.series for model in Model})),
 }
-"""The strategies of types of values that are no enumerations."""
+"""The strategies of types of values that are not enumerations."""
 
 
 def _records() -> SearchStrategy[LogRecord]:
@@ -115,4 +115,4 @@ BY_KIND: Mapping[type, Callable[[], SearchStrategy[Any]]] = {
     Register: registers,
     RegisterMap: register_maps,
 }
-"""The strategies of the public classes that are no messages."""
+"""The strategies of the public classes that are not messages."""

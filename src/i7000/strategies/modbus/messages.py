@@ -1,7 +1,7 @@
 """Strategies for Modbus messages and for whole exchanges.
 
-Laws: the strategy of a message is made field by field, from what its class says of each, so a new request has one at
-once; what a module is held to take is asked of the message's own `check`.
+Laws: strategies are made from the fields of a message class, so new requests need no code here. The message's own
+`check` decides what a module accepts.
 """
 
 from collections.abc import Sequence
@@ -54,7 +54,7 @@ MessageT = TypeVar("MessageT", bound=Message)
 R = TypeVar("R", bound=Response)
 
 _REQUESTS = sorted(REQUESTS, key=lambda request: len(request.pdu))
-"""The shortest first: `ReadModuleName`."""
+"""The requests, the shortest first: `ReadModuleName`."""
 _MESSAGES: tuple[type[Message], ...] = (*_REQUESTS, ExceptionResponse, *(kind.response for kind in _REQUESTS))
 _MODELS = [model for model in Model if Protocol.MODBUS_RTU in model.protocols]
 _ADDRESSES = range(1, 248)
@@ -64,7 +64,7 @@ _ALL_ADDRESSES = 0x10000
 
 
 def profiles(*, known_types: bool = False) -> SearchStrategy[Profile]:
-    """Make profiles of the modules that speak Modbus, M-7017 first; `known_types` as in `i7000.strategies.profiles`."""
+    """Make profiles of modules that support Modbus, M-7017 first; `known_types` as in `i7000.strategies.profiles`."""
     return vocabulary.profiles(*_MODELS, known_types=known_types)
 
 
@@ -79,29 +79,29 @@ def profiles_with(kind: type[Request[Any]]) -> SearchStrategy[Profile]:
 
 @st.composite
 def messages(draw: st.DrawFn, kind: type[MessageT], profile: Profile | None = None) -> MessageT:
-    """Make messages of a class, abstract or not, as any module might send or be sent them.
+    """Make messages of a class, abstract or not, that some module can send or receive.
 
-    Shape: every value that has a place in the bytes that the message has with `profile`, or with some profile.
+    Shape: every value that fits in the bytes of the message with `profile`, or with some profile.
     """
     kinds = [each for each in _MESSAGES if issubclass(each, kind)]
     return draw(_any_of(kinds, profile or draw(profiles()), accepted=False))
 
 
 def requests(profile: Profile, *kinds: type[Request[Any]]) -> SearchStrategy[Request[Any]]:
-    """Make requests that `i7000.modbus.encode` takes for `profile`, of all `kinds` that the module has."""
+    """Make requests that `i7000.modbus.encode` accepts for `profile`, of all `kinds` that the module has."""
     had = [kind for kind in kinds or _REQUESTS if kind.availability not in profile.refused]
     return _any_of(had, profile, accepted=True)
 
 
 def any_requests(profile: Profile) -> SearchStrategy[Request[Any]]:
-    """Make requests that a module might be sent, also those that it does not have or take."""
+    """Make requests for a module, including those that it does not have or refuses."""
     return _any_of(_REQUESTS, profile, accepted=False)
 
 
 def responses(request: Request[R], profile: Profile) -> SearchStrategy[R | ExceptionResponse]:
-    """Make responses that `i7000.modbus.encode` takes for `profile`, and that answer `request`, which is to one module.
+    """Make responses to `request`, which is not a broadcast, that `i7000.modbus.encode` accepts for `profile`.
 
-    Shape: as many items as were asked for; what a write repeats is repeated; no reserved bits.
+    Shape: as many items as requested; write responses repeat the request; no reserved bits.
     """
     known: dict[str, Any] = {"address": request.address}
     if isinstance(request, ReadCoils | ReadDiscreteInputs | ReadHoldingRegisters | ReadInputRegisters):
@@ -117,7 +117,7 @@ def responses(request: Request[R], profile: Profile) -> SearchStrategy[R | Excep
 
 
 def exception_responses(request: Request[Any]) -> SearchStrategy[ExceptionResponse]:
-    """Make exceptions that answer `request`, with codes that are defined."""
+    """Make exceptions that answer `request`, with defined codes."""
     codes = st.sampled_from([code.value for code in ExceptionCode])
     return st.builds(ExceptionResponse, st.just(request.address), st.just(request.function), codes)
 
@@ -131,7 +131,7 @@ def _any_of(kinds: Sequence[type[MessageT]], profile: Profile, *, accepted: bool
 def _messages(
     kind: type[Message], profile: Profile, *, accepted: bool, known: dict[str, Any]
 ) -> SearchStrategy[Message]:
-    """Make messages of a concrete class; with `accepted`, those that the module takes or sends."""
+    """Make messages of a concrete class; with `accepted`, only those that the module accepts or sends."""
     built = _built(kind, profile, accepted, known)
     return built.filter(lambda message: _takes(message, profile)) if accepted else built
 
@@ -152,7 +152,7 @@ def _built(
     accepted: bool,  # noqa: FBT001 - of our own
     known: dict[str, Any],
 ) -> Message:
-    """Make messages field by field: what can be in one depends on those before."""
+    """Make messages field by field: the values of a field depend on the fields before it."""
     values: dict[str, Any] = {}
     for attribute in fields(kind):
         name = attribute.name
@@ -167,7 +167,7 @@ def _built(
 def _settable(  # noqa: PLR0911 - a table
     kind: type[Message], name: str, profile: Profile, values: dict[str, Any]
 ) -> SearchStrategy[Any] | None:
-    """Make what a module takes of a field, where that is much less than its bytes can say."""
+    """Make values of a field that a module accepts, if they are far fewer than its bytes allow."""
     of_offset = kind in (ReadCjcOffset, SetCjcOffset)
     match name:
         case "channel" if of_offset:
@@ -193,13 +193,13 @@ _TYPES: dict[Any, SearchStrategy[Any]] = {
     TypeCode: st.sampled_from(TypeCode) | st.integers(0, 0xFF).map(TypeCode.of),
     LineSettings: line_settings(),
 }
-"""The values of types that are no enumeration of all that a field can be."""
+"""The values of types whose fields have more values than the type has members."""
 
 
 def _part(  # noqa: PLR0911 - a table
     kind: type[Message], attribute: "Attribute[Any]", profile: Profile, values: dict[str, Any]
 ) -> SearchStrategy[Any]:
-    """Make all that a field can be beside the `values` of others."""
+    """Make values of a field that are possible with the `values` of the other fields."""
     item: items.Item = cast("Any", attribute.type).__metadata__[0]
     if attribute.type is items.Address:
         return st.sampled_from((*_ADDRESSES, *[BROADCAST] * 25)) if _can_be_broadcast(kind) else st.integers(1, 247)
@@ -247,7 +247,7 @@ def _words(counts: SearchStrategy[int]) -> SearchStrategy[tuple[int, ...]]:
 
 @frozen
 class Exchange:
-    """A request, what answers it, and the frames of both."""
+    """A request, its response, and the frames of both."""
 
     profile: Profile
     request: Request[Any]
@@ -258,7 +258,7 @@ class Exchange:
 
 @st.composite
 def exchanges(draw: st.DrawFn, *kinds: type[Request[Any]], profile: Profile | None = None) -> Exchange:
-    """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any that has the request."""
+    """Make exchanges of `kinds`, or of all, with the module of `profile`, or with any module that has the request."""
     asked = kinds or _REQUESTS
     had = [kind for kind in asked if profile is None or kind.availability not in profile.refused]
     kind = draw(st.sampled_from(had))
