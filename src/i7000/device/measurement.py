@@ -49,7 +49,6 @@ def readings(state: State, signals: Signals) -> tuple[Reading, ...]:
     return _readings(state.inputs, _junction(state, signals), signals)
 
 
-@lru_cache(_REMEMBERED)
 def _readings(inputs: Inputs, junction: float, signals: Signals) -> tuple[Reading, ...]:
     eeprom = inputs.eeprom
     fast_mode, rms = eeprom.report_settings.fast_mode, eeprom.model is Model.M_7017RMS

@@ -52,7 +52,6 @@ def _map_of(model: Model, firmware: str) -> dict[Area, dict[int, tuple[Register,
     return found
 
 
-@lru_cache(maxsize=1024)
 def _spans(
     model: Model, firmware: str, area: Area, asked: range, forbidden: Access
 ) -> tuple[tuple[Register, int], ...]:

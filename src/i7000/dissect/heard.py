@@ -12,7 +12,7 @@ from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
 
-__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "updated"]
+__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "following"]
 
 
 class Place(NamedTuple):
@@ -37,7 +37,7 @@ class Direction(StrEnum):
     """The adapter of the host, which hears what it sends."""
 
 
-@frozen
+@frozen(eq=False)
 class Heard:
     """What was made of a frame, or of bytes that are none."""
 
@@ -53,7 +53,7 @@ class Heard:
     same_as: Place | None = None
     """The frame of which it is an echo."""
     notes: tuple[str, ...] = ()
-    error: DecodeError | None = field(default=None, eq=str)
+    error: DecodeError | None = None
     """What is wrong with it."""
     candidates: tuple[Meaning, ...] = ()
     """What a frame would mean by itself that is wrong where it stands."""
@@ -134,8 +134,8 @@ _KINDS: dict[str, tuple[type, ...]] = {
 """What each field of `Line` can be."""
 
 
-def updated(line: Line, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
-    """Return a line of which more was heard; its fields are not looked at again, as `evolve` would."""
-    copy = object.__new__(Line)
-    object.__setattr__(copy, "__dict__", {**line.__dict__, **changes})
-    return copy
+def following(line: Line, number: int, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
+    """Return a line after a frame of this number; its fields are not looked at again, as `evolve` would."""
+    after = object.__new__(Line)
+    object.__setattr__(after, "__dict__", {**line.__dict__, "count": number, **changes})
+    return after

@@ -8,7 +8,7 @@ those before it. No bytes raise.
 """
 
 from i7000.arguments import as_bytes, check_type
-from i7000.dissect.heard import Heard, Line, Place, updated
+from i7000.dissect.heard import Heard, Line, Place, following
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_modbus
 from i7000.dissect.stream import split
@@ -53,10 +53,10 @@ def _hear_split(
             line, heard = _hear(line, wire, protocol, _next(line, where), sent=sent)
         else:
             place = _next(line, where)
-            line = updated(line, count=place.number)
+            line = following(line, place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
-    return updated(line, rest=rest), tuple(found)
+    return following(line, line.count, rest=rest), tuple(found)
 
 
 def hear_frame(
@@ -85,7 +85,7 @@ def hear_frame(
 def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place, *, sent: bool | None) -> tuple[Line, Heard]:
     if not wire:
         error = DecodeError(Fault.LENGTH, wire, allowed="a frame")
-        return updated(line, count=place.number), Heard(place, wire, protocol, error=error)
+        return following(line, place.number), Heard(place, wire, protocol, error=error)
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place, sent)
 
 

@@ -4,7 +4,7 @@ import re
 from functools import cache, cached_property
 from typing import Any, NamedTuple
 
-from attrs import field, frozen
+from attrs import frozen
 
 from i7000 import dcon
 from i7000.dissect.known import Fact, Origin
@@ -58,7 +58,7 @@ class Item(NamedTuple):
     type_code: TypeCode | None = None
 
 
-@frozen
+@frozen(eq=False)
 class Fit:
     """The profiles that a meaning fits, in the order in which they are tried."""
 
@@ -81,25 +81,25 @@ class Fit:
         return tuple(sorted({profile.data_format for profile in self.profiles}))
 
 
-@frozen(cache_hash=True)
+@frozen(eq=False)
 class Meaning:
     """One thing that a frame can mean.
 
-    Its hash is that of the messages, which is soon computed.
+    It is compared by identity: what was made of a meaning is remembered, and found again at once.
     """
 
     message: Message
     command: Message | None
     """The command or request that it answers."""
-    fit: Fit = field(hash=False)
+    fit: Fit
     """The profiles it was read with."""
-    readings: tuple[ChannelReading, ...] = field(default=(), hash=False)
-    items: tuple[Item, ...] = field(default=(), hash=False)
+    readings: tuple[ChannelReading, ...] = ()
+    items: tuple[Item, ...] = ()
     """The coils and registers that it touches."""
-    facts: tuple[Fact, ...] = field(default=(), hash=False)
+    facts: tuple[Fact, ...] = ()
     """What its readings rest on: ``types`` and the data format."""
-    notes: tuple[str, ...] = field(default=(), hash=False)
-    misfit: DecodeError | None = field(default=None, eq=str, hash=False)
+    notes: tuple[str, ...] = ()
+    misfit: DecodeError | None = None
     """Why the first reading without a value cannot be one of its type."""
 
     @property
