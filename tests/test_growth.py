@@ -121,7 +121,7 @@ def test_time_grows_in_proportion_to_a_line_in_which_frames_are_looked_for(block
     def find(line: str) -> object:
         return list(pieces([(1, line)]))
 
-    lengths = SHORT // 4, SHORT // 4 * TIMES
+    lengths = SHORT // 8, SHORT // 8 * TIMES
     assert grows_in_proportion(find, *((block * (length // len(block) + 1))[:length] for length in lengths))
 
 
@@ -129,4 +129,4 @@ def test_time_grows_in_proportion_to_the_lines_of_a_log_whose_frames_are_cut() -
     def find(log: str) -> object:
         return list(pieces(enumerate(log.splitlines(), 1)))
 
-    assert grows_in_proportion(find, *("RX 01 04\n" * (length // 64) for length in (SHORT, SHORT * TIMES)))
+    assert grows_in_proportion(find, *("RX 01 04\n" * (length // 256) for length in (SHORT, SHORT * TIMES)))

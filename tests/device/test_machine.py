@@ -385,4 +385,4 @@ class Module(RuleBasedStateMachine):
 
 
 TestModule = Module.TestCase
-TestModule.settings = settings(max_examples=settings().max_examples * 2, stateful_step_count=30)
+TestModule.settings = settings(stateful_step_count=30)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from attrs import asdict, evolve
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import DataFormat, DecodeError, Protocol, Status, dcon, modbus
@@ -17,7 +17,6 @@ from i7000.strategies.dcon import damaged
 pytestmark = pytest.mark.no_cover
 
 NOW = 1000.0
-FREQUENT = settings(max_examples=settings().max_examples * 3)
 
 # --- frames ----------------------------------------------------------------------------------------------------------
 
@@ -78,7 +77,6 @@ def talked_to(state: State, dialogue: list[bytes], on: Signals) -> State:
 # --- properties -------------------------------------------------------------------------------------------------------
 
 
-@FREQUENT
 @given(_pairs(any_frames), device.signals())
 def test_no_frame_raises_and_what_is_not_carried_out_changes_nothing(case: tuple[State, bytes], on: Signals) -> None:
     state, frame = case
@@ -93,7 +91,6 @@ def test_no_frame_raises_and_what_is_not_carried_out_changes_nothing(case: tuple
         assert after == unheard
 
 
-@FREQUENT
 @given(_pairs(frames), device.signals())
 def test_every_answer_is_one_that_the_host_reads(case: tuple[State, bytes], on: Signals) -> None:
     state, frame = case
@@ -131,7 +128,6 @@ def test_after_any_dialogue_a_module_can_still_be_understood(case: tuple[State, 
     )  # fmt: skip
 
 
-@FREQUENT
 @given(_pairs(lambda state: st.lists(frames(state), max_size=12)), device.signals())
 def test_a_state_that_was_reached_is_as_one_that_is_made(case: tuple[State, list[bytes]], on: Signals) -> None:
     state = talked_to(*case, on)

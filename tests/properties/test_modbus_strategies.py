@@ -22,6 +22,7 @@ from i7000.strategies.modbus import (
     plans,
     profiles,
     profiles_with,
+    register_items,
     register_maps,
     register_values,
     registers,
@@ -252,3 +253,10 @@ def test_streams_have_noise_of_every_fault(fault: Fault) -> None:
 )
 def test_frames_are_those_of_the_side(side: Side, wanted: Any) -> None:
     assert wanted(find(frames(side), wanted, settings=ONCE))
+
+
+def test_items_of_a_row_are_all_that_a_module_can_send() -> None:
+    row = RegisterMap(PLAINEST).find("analog_input")
+    items = register_items(row, PLAINEST)
+
+    assert len(find(items, lambda found: found[0] == 0xFFFF, settings=ONCE)) == PLAINEST.channels

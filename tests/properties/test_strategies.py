@@ -23,6 +23,7 @@ from i7000.strategies.dcon import (
     exchanges,
     frames,
     messages,
+    near_misses,
     profiles_with,
     responses,
     streams,
@@ -272,3 +273,10 @@ def test_streams_have_noise_of_every_fault(fault: Fault) -> None:
         return any(isinstance(event, Noise) and event.fault is fault for event in stream.events)
 
     assert has_fault(find(streams(checksum=True), has_fault, settings=ONCE))
+
+
+def test_a_near_miss_is_a_frame_with_one_other_character() -> None:
+    found = set(near_misses(b">+1\r", checksum=False))
+
+    assert {b">-1\r", b">++\r", b">+a\r"} < found
+    assert {sum(left != right for left, right in zip(frame, b">+1\r", strict=True)) for frame in found} == {1}

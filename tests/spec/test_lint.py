@@ -172,12 +172,6 @@ def test_a_file_out_of_form_is_rewritten_once(tmp_path: Path) -> None:
     assert path.read_bytes() == (lint.SPEC / "tables" / path.name).read_bytes()
 
 
-def test_the_linter_finds_nothing(capsys: pytest.CaptureFixture[str]) -> None:
-    status = lint.main([])
-
-    assert (status, capsys.readouterr().out) == (0, "")
-
-
 # Tables
 
 
