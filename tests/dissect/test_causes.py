@@ -23,8 +23,7 @@ def hexed(digits: str) -> bytes:
         ("01 04 00 00 00 01", "no CRC? ReadInputRegisters without it, which would be 31 CA"),
         (
             "00 07 00 00 00 06 01 04 00 00 00 08",
-            "a Modbus TCP header (transaction 7, 6 bytes follow): these modules speak RTU; "
-            "the rest is ReadInputRegisters",
+            "a Modbus TCP header (transaction 7, 6 bytes follow): these modules speak RTU; the rest is ReadInputRegisters",
         ),
         (
             "00 07 00 00 00 04 01 FF 00 00",

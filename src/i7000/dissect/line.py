@@ -44,7 +44,7 @@ def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tu
     found = []
     for protocol, wire, fault in spans:
         if fault is None:
-            line, heard = _hear(line, wire, protocol, _next(line, where))
+            line, heard = hear_frame(line, wire, protocol, _next(line, where))
         else:
             place = _next(line, where)
             line = following(line, place.number)
@@ -63,16 +63,15 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
     >>> heard.answers.where, heard.meanings[0].fields[1].text, line.knowledge.of(0x01).known.types
     ('frame 1', '0F, thermocouple K, -270..1372 degC', (<TypeCode.K: 15>,))
     """
-    check_type("line", line, Line)
-    check_type("protocol", protocol, Protocol)
+    if line.__class__ is not Line:
+        raise ArgumentError("line", line, "Line")
+    if protocol.__class__ is not Protocol:
+        raise ArgumentError("protocol", protocol, "Protocol")
     if place is None:
         place = _next(line)
-    elif not isinstance(place, Place) or not isinstance(place.number, int):
+    elif place.__class__ is not Place or place.number.__class__ is not int:
         raise ArgumentError("place", place, "Place, with a number")
-    return _hear(line, as_bytes("wire", wire), protocol, place)
-
-
-def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place) -> tuple[Line, Heard]:
+    wire = as_bytes("wire", wire)
     if not wire:
         return following(line, place.number), Heard(
             place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame")
