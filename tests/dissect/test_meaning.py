@@ -1,6 +1,6 @@
 """What a `Meaning` says of itself, for both protocols."""
 
-from i7000 import DataFormat, Firmware, Model, ModbusDataFormat, Protocol, TypeCode, dcon, modbus
+from i7000 import DataFormat, Firmware, ModbusDataFormat, Model, Protocol, TypeCode, dcon, modbus
 from i7000.dissect import Known, Meaning
 from i7000.dissect.meaning import errata
 from tests.dissect.frames import REQUEST, RESPONSE

@@ -62,8 +62,8 @@ def test_text_looks_like_dcon(wire: bytes, protocol: Protocol) -> None:
     assert looks_like(wire) is protocol
 
 
-@given(frames, protocols, st.booleans())
-def test_the_spans_and_the_rest_are_the_data(sent: list[bytes], protocol: Protocol | None, last: bool) -> None:
+@given(sent=frames, protocol=protocols, last=st.booleans())
+def test_the_spans_and_the_rest_are_the_data(sent: list[bytes], protocol: Protocol | None, *, last: bool) -> None:
     data = b"".join(sent)
     spans, rest = split(data, protocol, last=last)
 
