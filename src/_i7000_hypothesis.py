@@ -23,7 +23,7 @@ def register() -> None:
         reason = repr(error)
     if reason:
         with suppress(UserWarning):  # where warnings are errors
-            warnings.warn(f"st.from_type will not know the classes of i7000: {reason}", stacklevel=2)
+            warnings.warn(f"st.from_type has no strategies for i7000: {reason}", stacklevel=2)
 
 
 def _register() -> str:

@@ -30,7 +30,7 @@ def free_port() -> int:
 
 
 def talk(url: str, *frames: bytes) -> list[bytes]:
-    """Say DCON frames as soon as somebody is there, and tell the answers."""
+    """Send DCON frames as soon as the simulator listens, and return the responses."""
     deadline = monotonic() + ENOUGH
     while True:
         try:
@@ -48,7 +48,7 @@ def talk(url: str, *frames: bytes) -> list[bytes]:
 
 
 def unanswered(port: int, frame: bytes) -> bytes:
-    """Say a DCON frame, and return what comes until the simulator hangs up: nothing, if all is well."""
+    """Send a DCON frame, and return the bytes until the simulator closes the connection: normally none."""
     with socket.create_connection(("127.0.0.1", port), timeout=ENOUGH) as opened:
         opened.sendall(frame)
         return opened.recv(100)

@@ -104,7 +104,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("ReadAnalogInput address=1 channel=12 --model I-7018", "channel cannot be 12: 0..7: I-7018, manual 2.4"),
+        ("ReadAnalogInput address=1 channel=12 --model I-7018", "channel cannot be 12: 0..7 on I-7018, manual 2.4"),
         ("ReadAnalogInput address=1 channel=17", "no model takes it: channel cannot be 17: "),
         ("ReadAnalogInput address=300 channel=1", "address cannot be 300: 00..FF, manual 2.4"),
         ("ReadCjcUpdate address=1 --model I-7018", "I-7018 has no CJC update setting: 7019 series only, manual 2.20"),
@@ -227,8 +227,8 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode $012 --type 20", "type 20 of '20' is not defined: 00..1C"),
         ("decode $012 --type MIXED,K", "type FF of 'MIXED,K' is not defined"),
         ("decode $012 --type K --model I-7017", "--type cannot be K: "),
-        ("decode $012 --type K,K,K", "of them, or none"),
-        ("decode $012 --type K,J,K --model I-7019R", "8 of them"),
+        ("decode $012 --type K,K,K", "type codes, or none"),
+        ("decode $012 --type K,J,K --model I-7019R", "8 type codes"),
         ("decode $012 --single-ended --model I-7018", "--single-ended cannot be given"),
         ("commands --model x", "--model cannot be x"),
     ],

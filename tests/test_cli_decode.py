@@ -148,7 +148,7 @@ def test_a_reading_that_its_type_cannot_have_is_not_understood() -> None:
 
     assert record["name"] == "AnalogInputs"
     assert record["fault"] == "number"
-    assert "type 08 (-10..10 V) writes -11.000..+11.000" in record["error"]
+    assert "type 08 (-10..10 V) sends -11.000..+11.000" in record["error"]
     assert [reading["value"] for reading in record["readings"]] == [None] + [5.0] * 7
     assert [reading["unit"] for reading in record["readings"]] == [None] + ["V"] * 7
 

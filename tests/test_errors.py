@@ -26,13 +26,13 @@ def test_an_encode_error_names_field_value_allowed_and_section() -> None:
     assert str(error) == "channel cannot be 9: 0..7, manual 2.4"
 
 
-def test_an_encode_error_with_a_reason_tells_it() -> None:
+def test_an_encode_error_with_a_reason_shows_it() -> None:
     error = EncodeError("model", "M-7018", "7019 series only", "2.21", "M-7018 has no CJC update setting")
 
     assert str(error) == "M-7018 has no CJC update setting: 7019 series only, manual 2.21"
 
 
-def test_an_encode_error_of_no_section_names_none() -> None:
+def test_an_encode_error_without_a_section_shows_no_section() -> None:
     error = EncodeError("period", 0.0, "more than 0 seconds", "")
 
     assert str(error) == "period cannot be 0.0: more than 0 seconds"
@@ -56,11 +56,12 @@ def test_a_long_frame_is_kept_whole_and_shown_in_part() -> None:
 
 
 @pytest.mark.parametrize("value", [10**5000, -(10**5000), (10**5000,)], ids=["large", "negative", "within"])
-def test_a_number_of_any_size_can_be_told(value: object) -> None:
+def test_a_number_of_any_size_can_be_shown(value: object) -> None:
     error = EncodeError("address", value, "00..FF", "2")
 
-    assert str(error).startswith("address cannot be a number too long to be written, of or in ")
-    assert repr(error).startswith("EncodeError('address', a number too long")
+    assert str(error).startswith("address cannot be a value of ")
+    assert "with a number too long to print: 00..FF" in str(error)
+    assert repr(error).startswith("EncodeError('address', a value of ")
     assert error.value == value
 
 

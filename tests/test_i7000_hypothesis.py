@@ -66,7 +66,7 @@ def test_an_old_hypothesis_gets_one_warning_that_names_the_version_needed(
     with pytest.warns(UserWarning, match="6.120") as warned:
         _i7000_hypothesis.register()
 
-    text = "st.from_type will not know the classes of i7000: Hypothesis 6.120 or later is needed, this is the old one"
+    text = "st.from_type has no strategies for i7000: Hypothesis 6.120 or later is needed, this is the old one"
     assert [text] == [str(it.message) for it in warned]
     assert registered == {}
 
@@ -99,7 +99,7 @@ def test_what_goes_wrong_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(types, LATE)
     monkeypatch.setattr(strategies, "register", fail)
 
-    with pytest.warns(UserWarning, match=r"the classes of i7000: RuntimeError\('as it were'\)$"):
+    with pytest.warns(UserWarning, match=r"strategies for i7000: RuntimeError\('as it were'\)$"):
         _i7000_hypothesis.register()
 
 

@@ -43,7 +43,12 @@ def test_single_ended_inputs_are_twenty() -> None:
     ("model", "values", "field", "reason"),
     [
         (Model.I_7018, {"type_codes": (TypeCode.V_10,) * 8}, "type_codes", "I-7018"),
-        (Model.I_7017, {"type_codes": (TypeCode.V_10,) * 7}, "type_codes", "8 of them, or none"),
+        (
+            Model.I_7017,
+            {"type_codes": (TypeCode.V_10,) * 7},
+            "type_codes",
+            "8 type codes, or none, on I-7017",
+        ),
         (Model.I_7017, {"type_codes": [TypeCode.V_10] * 8}, "type_codes", "a tuple"),
         (Model.I_7017, {"type_codes": (0x08,) * 8}, "type_codes", "cannot be 8: members of TypeCode"),
         (Model.I_7017, {"type_codes": ([],) * 8}, "type_codes", "members of TypeCode"),
@@ -128,11 +133,11 @@ OLD = Profile(Model.M_7019R, firmware=Firmware("B2.6"))
 @pytest.mark.parametrize(
     ("check", "taken", "refused", "reason"),
     [
-        (I_7018.check_channel, (0, 7), (8, -1), "0..7: I-7018"),
-        (M_7017Z.check_channel, (19,), (20,), "0..19: M-7017Z"),
+        (I_7018.check_channel, (0, 7), (8, -1), "0..7 on I-7018"),
+        (M_7017Z.check_channel, (19,), (20,), "0..19 on M-7017Z"),
         (I_7018.check_mask, (0, 0xFF), (0x100, -1), "I-7018 has no channel 8: 0..7"),
         (M_7017Z.check_mask, (0xFFFFF,), (0x100000,), "M-7017Z has no channel 20: 0..19"),
-        (I_7018.check_type_code, (0x05, TypeCode.K), (0x08, 0xFF), "MV_15 MV_50 .*: I-7018"),
+        (I_7018.check_type_code, (0x05, TypeCode.K), (0x08, 0xFF), "MV_15 MV_50 .* on I-7018"),
         (
             I_7018.check_line,
             (LineSettings(BaudRate.BAUD_115200), LineSettings(character_format=CharacterFormat.O81)),
@@ -143,7 +148,7 @@ OLD = Profile(Model.M_7019R, firmware=Firmware("B2.6"))
             OLD.check_line,
             (LineSettings(),),
             (LineSettings(character_format=CharacterFormat.N82),),
-            r"N81 with firmware before B3\.1: M-7019R",
+            r"N81 with firmware before B3\.1 on M-7019R",
         ),
         (I_7018.check_report, (ReportSettings(DataFormat.HEX),), (ReportSettings(3),), r"0\.\.2"),
         (I_7018.check_report, (ReportSettings(),), (ReportSettings(reserved=1),), "reserved cannot be 1: 0"),

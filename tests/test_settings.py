@@ -67,7 +67,7 @@ def test_a_setting_of_another_kind_is_refused_by_name(kind: Any, values: dict[st
     ("form", "parity", "stop_bits", "bits"),
     [("N81", "N", 1, 10), ("N82", "N", 2, 11), ("E81", "E", 1, 11), ("O81", "O", 1, 11)],
 )
-def test_a_character_format_tells_what_is_on_the_line(form: str, parity: str, stop_bits: int, bits: int) -> None:
+def test_a_character_format_has_parity_stop_bits_and_length(form: str, parity: str, stop_bits: int, bits: int) -> None:
     character_format = CharacterFormat[form]
 
     assert (parity, stop_bits, bits) == (character_format.parity, character_format.stop_bits, character_format.bits)

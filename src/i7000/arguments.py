@@ -110,4 +110,4 @@ def check_clock(now: float, before: float = -LARGEST_FLOAT) -> None:
         raise ArgumentError("now", now, "int or float")
     check_seconds("now", now)
     if now < before:
-        raise StateError(f"the clock went back: now is {now!r}, and it was {before!r} before")
+        raise StateError(f"the clock went back from {before!r} to {now!r}: use a monotonic clock")

@@ -164,9 +164,9 @@ def shown(value: object) -> str:
     try:
         text = repr(_named(value))
     except ValueError:  # sys.set_int_max_str_digits
-        return f"a number too long to be written, of or in {type(value).__name__}"
+        return f"a value of {type(value).__name__} with a number too long to print"
     except Exception:  # noqa: BLE001 - a `__repr__` of another's
-        return f"a value that cannot be written, of {type(value).__name__}"
+        return f"a value of {type(value).__name__} whose repr() fails"
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}... ({len(text)} characters)"
 
 

@@ -1,4 +1,4 @@
-"""Names and firmware versions as text, and how to tell them from other responses (2.23, 2.24, 2.33).
+"""Names and firmware versions as text, and how to distinguish them from other responses (2.23, 2.24, 2.33).
 
 Laws: a version is never a name. A name is never the text of a response to another command with the same address, for
 any model. The exception is the number of a series, which may be a mask of four digits (E122, an assumption).

@@ -142,7 +142,7 @@ class Profile:
         return self.has(CONFIGURABLE)
 
     def supported_types(self) -> str:
-        """The names of the types that the module can be set to: for messages."""
+        """Return the names of the types that the module can be set to: for messages."""
         return _supported_types(self.model, self.firmware)
 
     def _check_kinds(self) -> None:
@@ -169,7 +169,7 @@ class Profile:
         unknown = next(code for code in self.type_codes if not isinstance(code, TypeCode))
         return EncodeError("type_codes", unknown, "members of TypeCode", "1.11")
 
-    # --- what the module can be set to --------------------------------------------------------------------------------
+    # --- supported settings -------------------------------------------------------------------------------------------
 
     @property
     def has_filter(self) -> bool:
@@ -189,7 +189,7 @@ class Profile:
         if channel.__class__ is not int:
             check_int("channel", channel)
         if not 0 <= channel < self.channels:
-            raise EncodeError("channel", channel, f"0..{self.channels - 1}: {self.model.value}", section)
+            raise EncodeError("channel", channel, f"0..{self.channels - 1} on {self.model.value}", section)
 
     def check_mask(self, mask: int, section: str) -> None:
         """Raise `EncodeError` for a mask with bits of channels that the module does not have.
@@ -210,7 +210,7 @@ class Profile:
         Errors: `EncodeError` for `field`.
         """
         if not self.supports(type_code):
-            allowed = f"{self.supported_types()}: {self.model.value}"
+            allowed = f"{self.supported_types()} on {self.model.value}"
             raise EncodeError(field, TypeCode.name_of(type_code), allowed, section)
 
     def check_line(self, line: LineSettings, section: str) -> None:
@@ -222,7 +222,7 @@ class Profile:
         if not isinstance(BaudRate.of(line.baud_rate), BaudRate):
             raise EncodeError("baud_rate", f"{line.baud_rate:02X}", "03..0A", section)
         if line.character_format is not CharacterFormat.N81 and not self.has_character_formats:
-            allowed = f"N81 with firmware before {self.model.character_formats_from}: {self.model.value}"
+            allowed = f"N81 with firmware before {self.model.character_formats_from} on {self.model.value}"
             raise EncodeError("character_format", line.character_format.name, allowed, section)
 
     def check_report(self, report: ReportSettings, section: str) -> None:
@@ -239,7 +239,7 @@ class Profile:
             raise EncodeError("fast_mode", True, f"{self.model.value} has no fast mode", section)
         if report.filter is not Filter.REJECT_60_HZ and not self.has_filter:
             since = self.model.filter_from
-            allowed = f"REJECT_60_HZ, the bit is reserved with firmware before {since}: {self.model.value}"
+            allowed = f"REJECT_60_HZ; the bit is reserved with firmware before {since} on {self.model.value}"
             raise EncodeError("filter", report.filter.name, allowed, section)
 
     @staticmethod
@@ -261,11 +261,11 @@ class Profile:
         Errors: `EncodeError`.
         """
         if not isinstance(name, str) or not is_name(name):
-            allowed = "not the text of another answer (2, 4 or 6 hex digits, a version, ...)"
+            allowed = "not the text of another response (2, 4 or 6 hex digits, a version, ...)"
             raise EncodeError("name", name, f"1 to {LONGEST_NAME} characters, {allowed}", section)
 
 
-# --- what follows from a few facts, and is asked again and again ------------------------------------------------------
+# --- cached properties ------------------------------------------------------------------------------------------------
 
 
 class _Places(NamedTuple):
@@ -303,14 +303,14 @@ def _types(
     Errors: `EncodeError` for types that the module cannot have.
     """
     if len(codes) not in (0, channels):
-        raise EncodeError("type_codes", codes, f"{channels} of them, or none: {model.value}", "1.3")
+        raise EncodeError("type_codes", codes, f"{channels} type codes, or none, on {model.value}", "1.3")
     kinds = set(codes)
     for code in kinds:
         if not _supports(code, model, firmware):
-            allowed = f"{_supported_types(model, firmware)}: {model.value}"
+            allowed = f"{_supported_types(model, firmware)} on {model.value}"
             raise EncodeError("type_codes", code.name, allowed, "1.11")
     if len(kinds) > 1 and not (model in CONFIGURABLE and _runs(firmware, CONFIGURABLE[model])):
-        raise EncodeError("type_codes", codes, f"one type for all channels: {model.value}", "2.15")
+        raise EncodeError("type_codes", codes, f"one type for all channels on {model.value}", "2.15")
     return tuple(code.unit for code in codes), _numbers(codes) if codes else None
 
 

@@ -111,8 +111,8 @@ def _written(type_code: TypeCode, data_format: DataFormat) -> str:
         form, _, _ = _TEXTS[data_format, type_code]
         ends = f"{form}..{form}" % (low, high)
     span = f"{type_code.minimum:g}..{type_code.maximum:g} {unit}"
-    writes = f"type {type_code:02X} ({type_code.thermocouple or span}) writes {ends}"
-    return f"{writes}; pass lenient=True for a module that differs"
+    sends = f"type {type_code:02X} ({type_code.thermocouple or span}) sends {ends}"
+    return f"{sends}; pass lenient=True for a module that differs"
 
 
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:
@@ -330,7 +330,7 @@ def _sentinel_word(reading: Reading, type_code: TypeCode, sentinels: dict[int, S
         if status is reading.status:
             return word
     allowed = ", ".join(["ok", *(status.value for status in sentinels.values())])
-    raise EncodeError("status", reading.status.value, f"with a word of type {type_code:02X}: {allowed}", "1.11")
+    raise EncodeError("status", reading.status.value, f"{allowed} for a word of type {type_code:02X}", "1.11")
 
 
 # --- scales -----------------------------------------------------------------------------------------------------------
@@ -379,7 +379,7 @@ def _number(reading: Reading) -> float:
     """Return the value of a reading that is sent as a number."""
     value = reading.value
     if isinstance(value, bool) or not isinstance(value, _NUMBERS) or not -_HUGE < value < _HUGE:
-        raise EncodeError("value", value, "a finite number, of a size that a module can measure", "1.11")
+        raise EncodeError("value", value, "a finite number that a module can measure", "1.11")
     return value
 
 

@@ -45,7 +45,7 @@ class Dialogue:
     """How much time passes between two."""
 
     def device(self) -> Task:
-        """Let the module hear the next frame."""
+        """Give the next frame to the module."""
         state, frames, signals = self.state, cycle(self.frames), changing() if self.changing else repeat(FIXED)
         moments = count(0.0, self.seconds)
 
@@ -76,7 +76,7 @@ class Dialogue:
         return read_and_write
 
     def writing(self, response: Any, profile: Profile) -> Task:
-        """Tell how the codec writes a response: of its readings, if they are measured."""
+        """Return how the codec encodes a response: from its readings, if they are measured."""
         if response is None:
             return lambda: None
         if self.measured and isinstance(response, dcon.AnalogInputs):

@@ -61,7 +61,7 @@ class Host:
         self.writer = writer
 
     async def ask(self, exchange: Exchange) -> bool:
-        """Ask, and tell whether that was answered rightly."""
+        """Send a request, and return whether the response is right."""
         request, expected = exchange
         began = perf_counter()
         self.writer.write(request)
@@ -84,7 +84,7 @@ class Host:
 
 
 async def converse(port: int, plan: Iterator[Iterable[Exchange]], seconds: float, tally: Tally) -> None:
-    """Ask until the time is over, or until something is not answered rightly; what is begun is ended."""
+    """Send requests until the time is over or a response is wrong; finish the open one."""
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
     host = Host(tally, reader, writer)
     over = perf_counter() + seconds
@@ -97,7 +97,7 @@ async def converse(port: int, plan: Iterator[Iterable[Exchange]], seconds: float
 
 
 def readings(client: int) -> Iterator[Iterable[Exchange]]:
-    """Ask all modules, in an order of one's own, for ever."""
+    """Send requests to all modules for ever, each host in its own order."""
     chance = random.Random(client)
     asked = [station.reads() for station in STATIONS]
     while True:
@@ -133,7 +133,7 @@ def served() -> Iterator[tuple[int, int]]:
 
 
 def resident(pid: int) -> float:
-    """Tell how much memory a process holds, in KB; not a number where the system does not tell."""
+    """Return the memory of a process in KB; NaN if the system does not report it."""
     status = Path(f"/proc/{pid}/status")
     if not status.exists():
         return float("nan")
@@ -141,7 +141,7 @@ def resident(pid: int) -> float:
 
 
 def worked(pid: int) -> float:
-    """Tell how many seconds of the processor a process took; not a number where the system does not tell."""
+    """Return the processor seconds of a process; NaN if the system does not report them."""
     stat = Path(f"/proc/{pid}/stat")
     if not stat.exists():
         return float("nan")
@@ -150,7 +150,7 @@ def worked(pid: int) -> float:
 
 
 async def turn(port: int, pid: int, plans: list[Iterator[Iterable[Exchange]]], seconds: float) -> Turn:
-    """Let hosts ask at once."""
+    """Run several hosts at once."""
     tally = Tally()
     conversations = [asyncio.create_task(converse(port, plan, seconds, tally)) for plan in plans]
     await asyncio.sleep(seconds / 4)
@@ -163,7 +163,7 @@ async def turn(port: int, pid: int, plans: list[Iterator[Iterable[Exchange]]], s
 
 
 def results_of(kind: str, done: Turn) -> Iterator[Result]:
-    """Tell the figures of a turn."""
+    """Yield the figures of a turn."""
     tally = done.tally
     ordered = sorted(tally.latencies)
     bus = f"{kind}, {CLIENTS} hosts, {len(STATIONS)} modules"

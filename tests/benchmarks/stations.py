@@ -57,7 +57,7 @@ class Station:
         return (2.5, 4, Unit.VOLT) if "7018" in self.model.value else (10.0, 3, Unit.VOLT)
 
     def thousandths(self, channel: int) -> int:
-        """Tell what is on an input, in thousandths of the full scale: on no other one is the same."""
+        """Return the signal of an input, in thousandths of the full scale; all inputs differ."""
         return (20 * (self.address - 1) + channel + 1) * (-1 if channel % 2 else 1)
 
     def simulated(self) -> Simulated:
@@ -72,7 +72,7 @@ class Station:
     # --- reading ------------------------------------------------------------------------------------------------------
 
     def reads(self) -> tuple[Exchange, ...]:
-        """Ask for all inputs, for each alone and for the name."""
+        """Read all inputs, each input alone and the name."""
         if self.protocol is Protocol.DCON:
             fields = [self._field(channel) for channel in range(self.channels)]
             alone = [self._dcon(f"#{self.address:02X}{at:X}", ">" + field) for at, field in enumerate(fields)]

@@ -47,13 +47,13 @@ def configuration(
         (
             dcon.SetChannelTypeCode(0x01, 0, TypeCode.V_10),
             Profile(Model.M_7017R, firmware=Firmware("B3.8")),
-            r"M-7017R with firmware B3\.8 has no type code of single channels: .*M-7017R from B3\.9.*, manual 2\.15",
+            r"M-7017R with firmware B3\.8 has no type code of a channel: .*M-7017R from B3\.9.*, manual 2\.15",
         ),
-        (dcon.ReadAnalogInput(0x01, 8), I_7017, r"channel cannot be 8: 0\.\.7: I-7017, manual 2\.4"),
+        (dcon.ReadAnalogInput(0x01, 8), I_7017, r"channel cannot be 8: 0\.\.7 on I-7017, manual 2\.4"),
         (
             dcon.SetChannelTypeCode(0x01, 0, 0x30),
             M_7019R,
-            "type_code cannot be '30': MV_15 MV_50 .*: M-7019R, manual 2.15",
+            "type_code cannot be '30': MV_15 MV_50 .* on M-7019R, manual 2.15",
         ),
         (dcon.ReadChannelTypeCode(0x01, 8), M_7019R, "channel cannot be 8"),
         (dcon.CalibrateChannelZero(0x01, 8), M_7019R, "channel cannot be 8"),
@@ -84,7 +84,7 @@ def configuration(
             Profile(Model.M_7019R, firmware=Firmware("B2.6"), type_codes=()),
             "filter cannot be 'REJECT_50_HZ'",
         ),
-        (dcon.AnalogInputs(("+00.000",) * 7), I_7017, "values cannot be .*: 8 engineering fields: I-7017"),
+        (dcon.AnalogInputs(("+00.000",) * 7), I_7017, "values cannot be .*: 8 engineering fields on I-7017"),
         (dcon.AnalogInputs(("4C53",) * 8), I_7017, "values cannot be"),
         (dcon.AnalogInputsHex(("+00.000",) * 8), I_7017, "8 hex fields"),
         (dcon.SynchronizedData(0x01, ("4C53",) * 8, first_reading=True), M_7019R, "values cannot be"),
@@ -194,7 +194,7 @@ def test_a_flag_is_true_or_false() -> None:
     ],
     ids=lambda value: repr(value)[:20],
 )
-def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes, fault: Fault, offset: int) -> None:
+def test_an_invalid_command_frame_raises_the_fault_and_its_place(frame: bytes, fault: Fault, offset: int) -> None:
     profile = Profile(Model.M_7018R)
 
     with pytest.raises(DecodeError) as caught:
@@ -203,7 +203,7 @@ def test_a_frame_that_is_no_command_is_told_what_is_wrong_and_where(frame: bytes
     assert (fault, offset, frame) == (caught.value.fault, caught.value.offset, caught.value.wire)
 
 
-def test_a_bad_checksum_is_told_with_the_right_one() -> None:
+def test_the_error_for_a_wrong_checksum_has_the_right_one() -> None:
     with pytest.raises(DecodeError, match=r"checksum at byte 4 of .*allowed: B7") as caught:
         dcon.decode_command(b"$012B6\r", evolve(I_7017, checksum=True))
 
@@ -283,7 +283,7 @@ def test_a_status_byte_is_kept_and_read() -> None:
     ) == (False, False)
 
 
-def test_an_offset_is_told_in_degrees() -> None:
+def test_an_offset_is_available_in_degrees() -> None:
     assert dcon.CjcOffset(0x01, -16).celsius == -0.16
 
 
@@ -307,7 +307,7 @@ def test_a_number_of_a_model_is_a_name(model: Model) -> None:
 @pytest.mark.parametrize("name", ["0506", "A2.0", "+0010"])
 def test_a_name_that_could_not_be_read_back_is_not_sent_and_not_taken(name: str) -> None:
     with pytest.raises(
-        EncodeError, match=r"not the text of another answer \(2, 4 or 6 hex digits, a version, \.\.\.\), manual"
+        EncodeError, match=r"not the text of another response \(2, 4 or 6 hex digits, a version, \.\.\.\), manual"
     ):
         dcon.encode(dcon.SetModuleName(0x01, name), I_7017)
 

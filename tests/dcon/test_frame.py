@@ -19,7 +19,7 @@ def test_a_wrong_missing_or_lower_case_checksum_is_refused(frame: bytes) -> None
 
 
 @pytest.mark.parametrize("frame", [b"$\r", b"$0\r"])
-def test_a_frame_too_short_for_a_checksum_is_told_so(frame: bytes) -> None:
+def test_a_frame_too_short_for_a_checksum_is_refused(frame: bytes) -> None:
     with pytest.raises(DecodeError) as caught:
         unseal(frame, checksum=True)
 

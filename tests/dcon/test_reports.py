@@ -44,7 +44,7 @@ def test_a_single_reading_has_the_type_of_its_channel() -> None:
     "profile", [Profile(Model.I_7018BL), Profile(Model.M_7019Z)], ids=["unknown types", "ten channels"]
 )
 def test_readings_need_the_types_of_all_channels(profile: Profile) -> None:
-    with pytest.raises(DecodeError, match="a profile that has a type code for each channel"):
+    with pytest.raises(DecodeError, match="a profile with a type code for each channel"):
         dcon.readings(dcon.AnalogInputs(("+00.000",) * 8), profile)
 
 
@@ -60,7 +60,7 @@ def test_the_fields_of_old_firmware_are_written_as_they_are_read() -> None:
         assert dcon.field(values[1], 7, old) == "-0000"
 
 
-def test_the_field_of_one_channel_is_what_its_reading_tells() -> None:
+def test_the_field_of_one_channel_is_the_inverse_of_its_reading() -> None:
     assert dcon.field(Reading(1.5, Unit.VOLT), 7, I_7017) == "+01.500"
     for channel in (8, -1):
         with pytest.raises(EncodeError, match="channel cannot be"):
@@ -127,7 +127,7 @@ def test_readings_beyond_the_range_are_those_of_the_module() -> None:
     assert [reading.value for reading in told] == [11.0, -11.0, 10.001, 0.0, None, None, None, -0.001]
 
 
-def test_a_lenient_caller_is_told_what_was_sent() -> None:
+def test_a_lenient_caller_gets_the_value_that_was_sent() -> None:
     report = dcon.AnalogInputs(("+0762.2",) + ("+05.000",) * 7)
 
     assert [reading.value for reading in dcon.readings(report, I_7017, lenient=True)] == [762.2] + [5.0] * 7
@@ -136,7 +136,7 @@ def test_a_lenient_caller_is_told_what_was_sent() -> None:
         dcon.reading(dcon.AnalogInput("+0762.2"), 0, I_7017)
 
 
-def test_a_lenient_caller_is_told_no_text_of_other_firmware() -> None:
+def test_a_lenient_caller_gets_no_text_of_other_firmware() -> None:
     with pytest.raises(DecodeError, match="number in the value of channel 7"):
         dcon.readings(dcon.AnalogInputs(("+05.000",) * 7 + ("+9999",)), I_7017, lenient=True)
 
@@ -168,5 +168,5 @@ def test_hex_readings_are_hex_whatever_the_data_format_is() -> None:
 
 
 def test_fields_are_as_many_as_channels() -> None:
-    with pytest.raises(EncodeError, match="readings cannot be 1: 8, as many as type codes"):
+    with pytest.raises(EncodeError, match="readings cannot be 1: 8, one for each type code"):
         dcon.fields([Reading(0.0, Unit.VOLT)], I_7017)

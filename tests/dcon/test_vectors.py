@@ -61,7 +61,7 @@ def test_a_response_is_among_its_meanings(vector: Record) -> None:
 
 
 @each("vector", dcon_vectors("response", "refused"))
-def test_a_response_is_not_longer_than_was_told(vector: Record) -> None:
+def test_a_response_is_not_longer_than_the_longest_response(vector: Record) -> None:
     command, profile = message_of(vector["command"]), profile_of(vector["profile"])
 
     assert len(wire(vector, "response")) <= dcon.longest_response(command, profile)

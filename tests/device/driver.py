@@ -50,7 +50,7 @@ class Bench:
         return self.ask(registers.write(self.state.ram.address, key, value, big_endian=big_endian))
 
     def wait(self, seconds: float) -> None:
-        """Let time pass."""
+        """Move the time on."""
         self.now += seconds
         self.state = advance(self.state, self.signals, self.now)
 

@@ -64,7 +64,7 @@ COILS, DISCRETE, INPUTS, HOLDING = "coil", "discrete_input", "input_register", "
 
 
 def places(it: Oracle, area: str, access: str) -> dict[int, tuple[Record, int]]:
-    """Tell what stands at each address, and which of its items."""
+    """Return the row of each address, and the place of its item."""
     own = [
         row
         for chart in MAPS
@@ -92,7 +92,7 @@ def number(data: bytes) -> int:
 
 
 def read(area: str) -> Callable[[Oracle, bytes], bytes]:
-    """Say how an area is read."""
+    """Return how an area is read."""
     single = area in (COILS, DISCRETE)
 
     def answer(it: Oracle, body: bytes) -> bytes:
@@ -168,7 +168,7 @@ def write(it: Oracle, area: str, start: int, items: Sequence[int]) -> None:
 
 
 def limited(it: Oracle, row: Record, item: int) -> int:
-    """Tell the number that an item stands for, if it is within the limits of its row."""
+    """Return the number of an item, if it is within the limits of its row."""
     name, value, low, high = row["name"], item, row["minimum"] or 0, row["maximum"]
     if row["type"] == "int8":
         refuse(3, when=item > 0xFF)
@@ -236,7 +236,7 @@ def write_register(it: Oracle, body: bytes) -> bytes:
 
 
 def write_several(area: str) -> Callable[[Oracle, bytes], bytes]:
-    """Say how several coils or registers are written."""
+    """Return how several coils or registers are written."""
 
     def answer(it: Oracle, body: bytes) -> bytes:
         start, count, data = number(body[:2]), number(body[2:4]), body[5:]

@@ -28,7 +28,7 @@ ANSWERS: list[tuple[str, str, Callable[..., Answer]]] = []
 
 
 def answers(section: str, lead: str, pattern: str = "") -> Callable[[Callable[..., Answer]], Callable[..., Answer]]:
-    """Say how a command is answered: ``h`` stands for a hex digit, ``N`` for a channel, ``V`` for a channel mask."""
+    """Return how a command is answered: ``h`` stands for a hex digit, ``N`` for a channel, ``V`` for a channel mask."""
 
     def add(answer: Callable[..., Answer]) -> Callable[..., Answer]:
         ANSWERS.append((section, re.escape(lead) + "AA" + pattern, answer))
@@ -163,7 +163,7 @@ class Oracle:
         self.update = update
 
     def tick(self, now: float) -> None:
-        """Let time pass: the host watchdog may time out, which disables it (2.36, A.2)."""
+        """Move the time on: the host watchdog may time out, which disables it (2.36, A.2)."""
         self.now = now
         if self.watchdog and self.timeout and now >= self.fed_at + self.timeout / 10:
             self.watchdog, self.timed_out, self.timeouts = False, True, min(self.timeouts + 1, 0xFFFF)
@@ -175,7 +175,7 @@ class Oracle:
         return ambient if self.held is None else self.held
 
     def cold_junction(self) -> float:
-        """The same as it is told: with the offset on the 7018 series (2.11)."""
+        """The reported temperature: with the offset on the 7018 series (2.11)."""
         return self.junction(self.ambient) + (self.cjc_offset / 100 if self.series == "7018" else 0)
 
     def value(self, channel: int, signal: tuple[str, float] | None, ambient: float) -> float:
@@ -203,7 +203,7 @@ class Oracle:
         return float(value)
 
     def fields(self, data_format: int, signals: list[tuple[str, float] | None], ambient: float) -> list[str]:
-        """Tell the channels as DCON does (1.11, 2.3)."""
+        """Return the fields of the channels as DCON sends them (1.11, 2.3)."""
         legacy = self.series == "7018" and self.model[0] == "I" and self.firmware <= "B1.4"
         return [self.field(at, data_format, signals[at], ambient, legacy=legacy) for at in range(self.channels)]
 
@@ -276,7 +276,7 @@ class Oracle:
 
 
 def reads(section: str, command: str, tell: Callable[[Any], str]) -> None:
-    """Say what a command without digits tells behind ``!AA``, or from ``>`` on."""
+    """Return the response to a command without digits after ``!AA``, or from ``>`` on."""
 
     def answer(it: Oracle) -> Answer:
         told = tell(it)
@@ -286,7 +286,7 @@ def reads(section: str, command: str, tell: Callable[[Any], str]) -> None:
 
 
 def sets(section: str, command: str, pattern: str, store: Callable[..., bool | None]) -> None:
-    """Say what a command stores; by False, that it is refused. Its digits are handed over as numbers."""
+    """Return what a command stores, or False if it is refused. Its digits are passed as numbers."""
 
     def answer(it: Oracle, *digits: str) -> Answer:
         return store(it, *(int(each, 16) for each in digits)) is not False

@@ -108,7 +108,7 @@ def test_answers_that_collide_are_garbled_unless_they_are_equal() -> None:
 def test_every_module_has_its_signals() -> None:
     line = bus(A01=Model.I_7018)
 
-    with pytest.raises(InvalidValueError, match="signals cannot be 0: 1, those of each module"):
+    with pytest.raises(InvalidValueError, match="signals cannot be 0: 1, one for each module"):
         line.step(dcon.seal(b"#01", checksum=False), [], 0.0)
 
 
@@ -143,7 +143,7 @@ def test_frames_are_heard_in_whatever_pieces_they_come(size: int) -> None:
     assert not ear.waiting
 
 
-def test_what_was_heard_tells_who_was_asked_and_how_it_is_read() -> None:
+def test_a_heard_frame_has_the_module_and_its_profile() -> None:
     line, ear, told = hear_all(bus(**MIXED), b"$02M\r", b"$09M\r")
     line, ear, _ = silence(line, ear)
 
@@ -158,14 +158,14 @@ def test_what_was_heard_tells_who_was_asked_and_how_it_is_read() -> None:
     assert [heard.protocol for heard in told] == [Protocol.DCON, Protocol.DCON, Protocol.MODBUS_RTU]
 
 
-def test_noise_is_told_unless_it_is_a_frame_to_others() -> None:
+def test_noise_is_reported_unless_it_is_a_frame_to_others() -> None:
     _, _, told = hear_all(bus(A01=Model.I_7018), b"\xff\r", RTU + b"\r")
 
     assert [heard.frame.wire for heard in told if isinstance(heard.frame, Noise)] == [b"\xff\r", RTU + b"\r"]
 
 
 @pytest.mark.parametrize("said", [b"$09M\r", b"#**\r", b"hello\r"])
-def test_what_was_told_of_dcon_is_not_told_again_as_noise_to_others(said: bytes) -> None:
+def test_a_reported_dcon_frame_is_not_reported_again_as_noise_to_others(said: bytes) -> None:
     line, ear, told = hear_all(bus(**MIXED), said)
 
     _, ear, others = silence(line, ear)
@@ -175,7 +175,7 @@ def test_what_was_told_of_dcon_is_not_told_again_as_noise_to_others(said: bytes)
     assert ear == Ear()
 
 
-def test_what_is_longer_than_a_frame_is_noise_before_silence_tells() -> None:
+def test_bytes_longer_than_a_frame_are_noise_before_the_silence() -> None:
     _, ear, told = hear_all(bus(M01=Model.M_7017), b"\xff" * 256, b"\xff")
 
     assert [heard.frame for heard in told] == [Noise(b"\xff" * 257, Fault.ADDRESS)]
@@ -217,7 +217,7 @@ def test_an_unknown_function_is_a_frame_when_silence_follows() -> None:
     assert [modbus.seal(b"\x01\xe3\x01")] == [it.answer for it in heard]
 
 
-def test_the_response_delay_is_told() -> None:
+def test_a_heard_frame_has_the_response_delay() -> None:
     line, _, _ = hear_all(bus(M01=Model.M_7017), modbus.encode(modbus.WriteSingleRegister(1, 487, 30)))
 
     _, _, told = hear_all(line, RTU)

@@ -216,7 +216,7 @@ def test_models_without_synchronized_sampling_do_not_know_its_broadcast() -> Non
 # --- INIT -------------------------------------------------------------------------------------------------------------
 
 
-def test_in_init_mode_a_module_tells_what_is_stored_from_address_00() -> None:
+def test_in_init_mode_a_module_reports_its_stored_settings_at_address_00() -> None:
     module = bench(
         Model.I_7018,
         address=0x2A,
@@ -417,7 +417,7 @@ def test_sampling_calibration_and_the_update_of_the_cold_junction_end_with_the_p
     assert dialogue == held(module, dialogue)
 
 
-def test_what_was_sampled_is_told_in_the_data_format_of_now() -> None:
+def test_a_sample_is_reported_in_the_present_data_format() -> None:
     module = bench(Model.I_7019R, signals=VOLTS)
     module.say("#**")
     module.signals = Signals.of(Unit.VOLT, *[5.0] * 8)

@@ -169,7 +169,7 @@ class Module(RuleBasedStateMachine):
         return Signals(tuple(signals), cold_junction=self.oracle.ambient)
 
     def send(self, frame: bytes) -> bytes | None:
-        """Let both hear a frame: the answers are the same, and what is not carried out changes nothing."""
+        """Give a frame to both: the responses are equal, and a refused one changes nothing."""
         before = advance(self.state, self.signals, self.oracle.now)
         modbus = self.oracle.protocol == "modbus"
         expected = modbus_oracle.hear(self.oracle, frame) if modbus else self.oracle.hear(frame)

@@ -161,7 +161,7 @@ def test_a_disabled_channel_is_0_elsewhere() -> None:
 RANGES = Signals.of(Unit.MILLIAMPERE, 12, 3, 21, 25, -30)
 
 
-def test_diagnostics_tell_enabled_channels_that_are_out_of_range_or_open() -> None:
+def test_diagnostics_show_enabled_channels_that_are_out_of_range_or_open() -> None:
     module = bench(Model.M_7019R, signals=RANGES, type_code=TypeCode.MA_20_0D, channel_mask=0xF7)
     module.say("$017C5R0F")
 

@@ -78,7 +78,7 @@ TWINS: dict[str, tuple[Model, Any, Any, str, str]] = {
 
 
 @pytest.mark.parametrize(("model", "setter", "getter", "command", "answer"), TWINS.values(), ids=TWINS)
-def test_what_function_46h_sets_is_told_by_it_and_by_dcon(
+def test_a_setting_of_function_46h_is_read_by_it_and_by_dcon(
     model: Model, setter: Any, getter: Any, command: str, answer: str
 ) -> None:
     module = rtu(model)
@@ -113,7 +113,7 @@ ROWS: dict[str, tuple[Model, str, Any, str, str]] = {
 
 
 @pytest.mark.parametrize(("model", "name", "value", "command", "answer"), ROWS.values(), ids=ROWS)
-def test_what_is_written_to_the_map_is_read_there_and_told_by_dcon(
+def test_a_value_written_to_the_map_is_read_there_and_by_dcon(
     model: Model, name: str, value: Any, command: str, answer: str
 ) -> None:
     module = rtu(model)
@@ -219,7 +219,7 @@ def test_a_line_that_the_module_cannot_have_is_refused(value: int, firmware: str
     assert module.state == before
 
 
-def test_the_response_delay_is_told_in_seconds_and_not_for_dcon() -> None:
+def test_the_response_delay_is_in_seconds_and_not_for_dcon() -> None:
     module = rtu(Model.M_7017)
     module.write("response_delay", 30)
 
@@ -260,7 +260,7 @@ def test_writing_clears_the_time_out_and_its_count() -> None:
     assert module.read("host_watchdog_timeout_count") == 0
 
 
-def test_the_reset_status_is_told_once_after_power_on() -> None:
+def test_the_reset_status_is_set_once_after_power_on() -> None:
     module = rtu(Model.M_7017)
 
     assert module.read("host_watchdog_enabled") is False

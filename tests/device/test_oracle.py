@@ -36,7 +36,7 @@ def test_every_function_and_sub_function_is_answered() -> None:
 
 
 @pytest.mark.parametrize("model", M_MODELS)
-def test_every_row_is_told(model: str) -> None:
+def test_every_row_has_a_value(model: str) -> None:
     it = oracle.Oracle(model, oracle.VERSIONS[-1])
 
     assert [len(modbus_oracle.told(it, row)) for row in said(model, "R")] == [row["count"] for row in said(model, "R")]

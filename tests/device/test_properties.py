@@ -69,7 +69,7 @@ def _pairs(source: Callable[[State], st.SearchStrategy[Any]]) -> st.SearchStrate
 
 
 def talked_to(state: State, dialogue: list[bytes], on: Signals) -> State:
-    """Let a module hear frames, a second apart."""
+    """Give frames to a module, one per second."""
     for at, frame in enumerate(dialogue):
         state, _ = step(state, frame, on, NOW + at)
     return state

@@ -50,7 +50,7 @@ class Bench:
         return Signals(channels, cold_junction=self.inputs.get("cjc", ROOM))
 
     def play(self, happening: Record) -> None:
-        """Let one step happen, at its time; all but a frame."""
+        """Perform one step at its time, except a frame."""
         now = happening["at"]
         if "power_on" in happening:
             self.state = power_on(self.eeprom, init_switch=happening["power_on"]["init_switch"], now=now)
@@ -73,7 +73,7 @@ class Bench:
         self.eeprom = state.eeprom
 
     def hear(self, frame: bytes, now: float) -> bytes | None:
-        """Let the module hear a frame; tell what it answers."""
+        """Give a frame to the module, and return the response."""
         assert self.state is not None
         state, answer = step(self.state, frame, self.signals, now)
         self.keep(state)

@@ -41,7 +41,7 @@ def test_no_settings_make_more_characters_than_there_is_time_for(data: bytes, se
 
 
 @each("byte", range(256))
-def test_a_parity_bit_is_a_stop_bit_to_who_expects_none(byte: int) -> None:
+def test_a_parity_bit_is_a_stop_bit_to_an_end_without_parity(byte: int) -> None:
     odd = byte.bit_count() & 1
 
     assert bytes((byte,) * odd) == hear_at(bytes((byte,)), Uart(9600, parity="E"), Uart(9600))

@@ -106,7 +106,7 @@ def test_a_modbus_module_is_silent_excepts_or_answers_as_the_vector_says(vector:
             assert not changed
 
 
-def test_the_firmware_of_a_vector_is_told() -> None:
+def test_the_module_reports_the_firmware_of_a_vector() -> None:
     assert bench(Model.M_7017R, "B3.9").say("$01F") == f"!01{Firmware('B3.9')}"
     assert factory(Model.M_7017R, Firmware("B3.9")).type_codes == (TypeCode.V_10,) * 8
     assert dcon.decode_command(b"$01F\r", bench(Model.M_7017R).state.profile) == dcon.ReadFirmwareVersion(0x01)

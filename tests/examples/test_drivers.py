@@ -221,7 +221,7 @@ def test_a_late_response_is_not_the_answer_to_the_next_request(ask: Ask) -> None
 
 
 def late_once(here: Running) -> None:
-    """Let the line be without faults as soon as it has been late."""
+    """Switch the faults off after the first late response."""
 
     def observe(observed: Any) -> None:
         here.simulator.faults = Faults()
@@ -262,7 +262,7 @@ def test_a_task_that_no_longer_waits_leaves_the_line_to_the_next() -> None:
         assert truth(command) == asyncio.run(give_up_and_ask(here.place))
 
 
-def test_a_port_that_goes_away_is_told_to_who_waits() -> None:
+def test_a_lost_port_raises_in_the_waiting_task() -> None:
     async def lose_the_port() -> None:
         far, near = pty.openpty()
         with serial.Serial(os.ttyname(near)) as port:
@@ -309,7 +309,9 @@ def test_the_programs_print_readings_or_what_else_came_of_it(
     assert (declined, capsys.readouterr().out) == (1, DECLINED)
 
 
-def test_readings_of_another_type_than_was_told_are_not_printed_as_values(capsys: pytest.CaptureFixture[str]) -> None:
+def test_readings_of_another_type_than_the_given_one_are_not_printed_as_values(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     with running(open_pty, *MODULES) as here:
         code = sync_driver.main([here.place, "--model", "M-7019R", "--address", "01", "--type", "V_10", "--checksum"])
 

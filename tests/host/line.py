@@ -114,7 +114,7 @@ class Line:
         return Ended(outcome, tuple(sent), intact)
 
     def wait(self, seconds: float) -> None:
-        """Let time pass with no request open."""
+        """Move the time on with no request open."""
         self.now += seconds
         while self.coming and self.coming[0][0] <= self.now:
             at, data = self.coming.pop(0)
@@ -123,7 +123,7 @@ class Line:
             self.events += events
 
     def step(self) -> tuple[Event[Any], ...]:
-        """Let time pass until something comes in or the host wants to be woken."""
+        """Move the time on until bytes arrive or the next deadline of the host."""
         deadline = next_deadline(self.bus)
         assert deadline is not None
         assert wake(self.bus, self.now) == (self.bus, ())

@@ -249,7 +249,7 @@ ANSWERS: list[tuple[str, AnyCommand, Profile, bytes, tuple[Event[Any], ...]]] = 
 @pytest.mark.parametrize(
     ("command", "profile", "heard", "events"), [row[1:] for row in ANSWERS], ids=[row[0] for row in ANSWERS]
 )
-def test_what_comes_in_is_told_however_it_comes(
+def test_received_bytes_give_the_same_events_in_any_pieces(
     command: AnyCommand, profile: Profile, heard: bytes, events: tuple[Event[Any], ...]
 ) -> None:
     whole, found = hear(ask(idle(), command, profile), heard)
@@ -524,7 +524,7 @@ def test_a_modbus_request_is_repeated_after_silence() -> None:
     assert pytest.approx(deadline - 0.001 + SILENCE) == next_deadline(bus)
 
 
-def test_a_frame_that_is_not_the_answer_is_told_whole_though_it_comes_in_pieces() -> None:
+def test_a_rejected_frame_is_reported_whole_if_it_arrives_in_pieces() -> None:
     other = modbus.encode(modbus.HoldingRegisters(0x01, (1, 2)))
 
     _, events = hear(ask(idle(), WORDS), other[:5], other[5:], WORDS_WIRE)

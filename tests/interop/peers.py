@@ -33,7 +33,7 @@ Items = tuple[int, ...]
 
 @frozen
 class Call:
-    """What a host is told to ask for: how many items to read, or which to write."""
+    """The task of a host: how many items to read, or which to write."""
 
     address: int
     function: int

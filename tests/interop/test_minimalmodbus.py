@@ -40,7 +40,7 @@ def instrument(opened: serial.Serial, address: int) -> Any:
 
 
 def settings(asked: Any, *payload: int) -> bytes:
-    """Ask for function 46h; the answer is over when nothing follows, as minimalmodbus does not know its length."""
+    """Send function 46h; silence ends the response, because minimalmodbus does not know its length."""
     asked.serial.timeout = 0.1
     answer: bytes = asked._perform_command(MODULE_SETTINGS, bytes(payload))  # noqa: SLF001 - it offers no other way
     asked.serial.timeout = 1
@@ -192,7 +192,7 @@ def test_a_module_that_is_not_there_does_not_answer() -> None:
             instrument(opened, NOBODY).read_registers(0, 1)
 
 
-def test_a_broadcast_is_carried_out_by_all_and_answered_by_none() -> None:
+def test_all_modules_carry_out_a_broadcast_without_a_response() -> None:
     with running(open_pty, VOLTAGES.simulated, MIXED.simulated) as here, port(here) as opened:
         instrument(opened, 0).write_register(488, 77, functioncode=6)
 

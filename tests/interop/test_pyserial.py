@@ -402,7 +402,7 @@ def test_the_baud_rate_changes_after_the_answer_to_a_soft_init() -> None:
     assert configuration == "!01020700"
 
 
-def test_in_init_mode_a_module_has_the_factory_line_and_tells_what_it_has_forgotten() -> None:
+def test_in_init_mode_a_module_has_the_factory_line_and_reports_its_stored_settings() -> None:
     """It speaks DCON at 9600 with address 00, and tells 115200 and, with the checksum set, its address (A.1)."""
     lost = module(
         Model.M_7018,

@@ -24,7 +24,7 @@ UNNAMED = (0x05, 0x06, MODULE_SETTINGS)
 
 @pytest.fixture
 def dissected(tmp_path: Path) -> Dissect:
-    """Ask tshark about frames; skipped where it is not installed."""
+    """Dissect frames with tshark; skipped if it is not installed."""
     tshark = program("tshark")
 
     def ask(frames: list[bytes]) -> list[Dissected]:
@@ -59,7 +59,7 @@ def test_it_names_address_and_function_of_every_frame_and_finds_every_crc_good(d
     assert [(frame[0], frame[1], True) for frame in frames] == [(it.address, it.function, it.good_crc) for it in seen]
 
 
-def test_it_sees_what_is_asked_for_and_what_is_told(dissected: Dissect) -> None:
+def test_it_sees_requests_and_responses(dissected: Dissect) -> None:
     """Request and response follow each other, so that it knows which is which and how many bits are asked for."""
     named = [it for it in EXCHANGES if it.request.function not in UNNAMED]
     chosen = [it for it in named if not taken_for_a_response(it.request)]

@@ -54,7 +54,7 @@ def write_capture(path: Path, frames: Iterable[bytes]) -> None:
 
 
 def dissect(tshark: str, capture: Path) -> list[Dissected]:
-    """Ask tshark about every frame of a capture."""
+    """Dissect every frame of a capture with tshark."""
     columns = [argument for field in FIELDS for argument in ("-e", field)]
     command = [tshark, "-r", str(capture), *OPTIONS, "-T", "fields", *columns]
     output = subprocess.run(command, check=True, capture_output=True, text=True).stdout  # noqa: S603 - our arguments

@@ -59,21 +59,29 @@ def frame(body: str) -> bytes:
                 0x01, LineSettings(BaudRate.BAUD_9600, CharacterFormat.O81), Protocol.MODBUS_RTU
             ),
             Profile(Model.M_7018, firmware=Firmware("B2.8")),
-            r"character_format cannot be 'O81': N81 with firmware before B2\.9: M-7018",
+            r"character_format cannot be 'O81': N81 with firmware before B2\.9 on M-7018",
         ),
-        (modbus.ReadTypeCode(0x01, 8), M_7019R, r"channel cannot be 8: 0\.\.7: M-7019R, manual 3\.3\.5"),
-        (modbus.ReadTypeCode(0x01, 1), M_7017, r"channel cannot be 1: 0\.\.0: M-7017"),
-        (modbus.SetTypeCode(0x01, 1, TypeCode.V_10), M_7017, r"channel cannot be 1: 0\.\.0: M-7017, manual 3\.3\.6"),
-        (modbus.SetTypeCode(0x01, 0, TypeCode.K), M_7017, "type_code cannot be 'K': V_10 V_5 V_1_0A .*: M-7017"),
+        (modbus.ReadTypeCode(0x01, 8), M_7019R, r"channel cannot be 8: 0\.\.7 on M-7019R, manual 3\.3\.5"),
+        (modbus.ReadTypeCode(0x01, 1), M_7017, r"channel cannot be 1: 0, which means all channels, on M-7017"),
+        (
+            modbus.SetTypeCode(0x01, 1, TypeCode.V_10),
+            M_7017,
+            r"channel cannot be 1: 0, which means all channels, on M-7017, manual 3\.3\.6",
+        ),
+        (modbus.SetTypeCode(0x01, 0, TypeCode.K), M_7017, "type_code cannot be 'K': V_10 V_5 V_1_0A .* on M-7017"),
         (modbus.SetTypeCode(0x01, 0, 0x30), M_7019R, "type_code cannot be '30'"),
-        (modbus.SetMiscellaneousSettings(0x01, 0x20), M_7018, "settings cannot be '20': only bits of 80h: M-7018"),
+        (modbus.SetMiscellaneousSettings(0x01, 0x20), M_7018, "settings cannot be '20': only bits of 80h on M-7018"),
         (
             modbus.SetMiscellaneousSettings(0x01, 0x80),
             Profile(Model.M_7019R, firmware=Firmware("B2.6"), type_codes=()),
-            "settings cannot be '80': only bits of 00h: M-7019R",
+            "settings cannot be '80': only bits of 00h on M-7019R",
         ),
-        (modbus.ReadCjcOffset(0x01, 0x01), M_7018, r"channel cannot be '01': 00, 80\.\.87: M-7018, manual 3\.3\.12"),
-        (modbus.SetCjcOffset(0x01, 0x88, 0), M_7018, r"channel cannot be '88': 00, 80\.\.87: M-7018, manual 3\.3\.13"),
+        (modbus.ReadCjcOffset(0x01, 0x01), M_7018, r"channel cannot be '01': 00, 80\.\.87 on M-7018, manual 3\.3\.12"),
+        (
+            modbus.SetCjcOffset(0x01, 0x88, 0),
+            M_7018,
+            r"channel cannot be '88': 00, 80\.\.87 on M-7018, manual 3\.3\.13",
+        ),
         (modbus.SetCjcOffset(0x01, 0x00, 0x1001), M_7018, r"offset cannot be 4097: -4096\.\.\+4096"),
         (modbus.SetCjcOffset(0x01, 0x80, -1), M_7018, r"offset cannot be -1: 0\.\.255"),
         (modbus.SetChannelMask(0x01, 0x400), Profile(Model.M_7019Z), r"M-7019Z has no channel 10: 0\.\.9"),
@@ -81,7 +89,7 @@ def frame(body: str) -> bytes:
         (
             modbus.WriteMultipleRegisters(0x01, 256, (8,) * 12),
             M_7019R,
-            r"count cannot be 12: 1\.\.11 registers in one write: M-7019R",
+            r"count cannot be 12: 1\.\.11 registers in one write on M-7019R",
         ),
     ],
     ids=lambda value: type(value).__name__ if isinstance(value, modbus.Message) else "",
@@ -119,13 +127,13 @@ def test_a_mask_has_as_many_bytes_as_the_channels_need(profile: Profile, mask: i
 
 @pytest.mark.parametrize("force", [False, True])
 def test_a_mask_needs_a_profile(force: bool) -> None:  # noqa: FBT001 - a case
-    with pytest.raises(EncodeError, match=r"profile cannot be None: .*length of a mask depends on, manual 3\.3\.9"):
+    with pytest.raises(EncodeError, match=r"profile cannot be None: .*determines the length of a mask, manual 3\.3\.9"):
         modbus.encode(modbus.SetChannelMask(0x01, 0x01), force=force)
 
 
 @pytest.mark.parametrize("kind", [modbus.SetChannelMask, modbus.ChannelMask])
 def test_a_mask_that_its_bytes_do_not_hold_cannot_be_forced(kind: Any) -> None:
-    with pytest.raises(EncodeError, match=r"mask cannot be '100': what 1 byte\(s\) hold: M-7017, manual 3\.3\.9"):
+    with pytest.raises(EncodeError, match=r"mask cannot be '100': 1 byte\(s\) on M-7017, manual 3\.3\.9"):
         modbus.encode(kind(0x01, 0x100), M_7017, force=True)
 
 
@@ -260,10 +268,10 @@ def test_a_message_is_shown_with_its_addresses_in_hex() -> None:
         ("014606000600000002" + "0000", Fault.VALUE, 8, "protocol .*allowed: 0 1"),
         ("01462e0002", Fault.VALUE, 4, "enabled .*allowed: 0 1"),
         ("01463003", Fault.VALUE, 3, "update .*allowed: 0 1 2"),
-        ("0146260101", Fault.LENGTH, 3, "address and PDU of 3 bytes and what follows"),
+        ("0146260101", Fault.LENGTH, 3, "address and PDU of 3 bytes and more"),
     ],
 )
-def test_a_frame_that_is_no_request_is_told_what_is_wrong_and_where(
+def test_an_invalid_request_frame_raises_the_fault_and_its_place(
     body: str, fault: Fault, offset: int, said: str
 ) -> None:
     with pytest.raises(DecodeError, match=said) as caught:
@@ -275,17 +283,17 @@ def test_a_frame_that_is_no_request_is_told_what_is_wrong_and_where(
 @pytest.mark.parametrize(
     ("request_", "body", "fault", "offset", "said"),
     [
-        (modbus.ReadInputRegisters(1, 0, 1), "0104", Fault.LENGTH, 2, "5 bytes at least"),
+        (modbus.ReadInputRegisters(1, 0, 1), "0104", Fault.LENGTH, 2, "at least 5 bytes"),
         (modbus.ReadInputRegisters(1, 0, 1), "0204020000", Fault.ADDRESS, 0, "allowed: 01"),
         (modbus.ReadInputRegisters(1, 0, 1), "0103020000", Fault.FUNCTION, 1, "allowed: 04 84"),
         (modbus.ReadInputRegisters(1, 0, 1), "018302", Fault.FUNCTION, 1, "allowed: 04 84"),
         (modbus.ReadInputRegisters(1, 0, 1), "01840200", Fault.LENGTH, 3, "address and PDU of 3 bytes [(]manual"),
-        (modbus.ReadInputRegisters(1, 0, 2), "0104020000", Fault.COUNT, 2, "bytes .*allowed: 4, as asked for"),
-        (modbus.ReadHoldingRegisters(1, 0, 1), "01030400000000", Fault.COUNT, 2, "allowed: 2, as asked for"),
+        (modbus.ReadInputRegisters(1, 0, 2), "0104020000", Fault.COUNT, 2, "bytes .*allowed: 4, as requested"),
+        (modbus.ReadHoldingRegisters(1, 0, 1), "01030400000000", Fault.COUNT, 2, "allowed: 2, as requested"),
         (modbus.ReadInputRegisters(1, 0, 1), "010400", Fault.COUNT, 2, "a tuple of 1 to 125 items"),
         (modbus.ReadInputRegisters(1, 0, 1), "01040100", Fault.COUNT, 2, "a tuple of 1 to 125 items"),
         (modbus.ReadInputRegisters(1, 0, 125), "0104fc" + "00" * 252, Fault.LENGTH, 256, "4 to 256 bytes"),
-        (modbus.ReadCoils(1, 0, 8), "01010200ff", Fault.COUNT, 2, "allowed: 1, as asked for"),
+        (modbus.ReadCoils(1, 0, 8), "01010200ff", Fault.COUNT, 2, "allowed: 1, as requested"),
         (modbus.ReadCoils(1, 0, 9), "01010200", Fault.LENGTH, 4, "as many as follow"),
         (modbus.WriteSingleCoil(1, 2, True), "01050003ff00", Fault.ECHO, 3, "allowed: 01 05 00 02 ff 00"),
         (modbus.WriteSingleRegister(1, 2, 3), "010600020004", Fault.ECHO, 5, "allowed: 01 06 00 02 00 03"),
@@ -308,11 +316,11 @@ def test_a_frame_that_is_no_request_is_told_what_is_wrong_and_where(
         (modbus.ReadModuleName(1), "014600007017", Fault.LENGTH, 6, r"PDU of 7 bytes.*\(manual 3\.3\.1\)"),
         (modbus.SetModuleAddress(1, 2), "01460400000001", Fault.RESERVED, 6, "allowed: 00"),
         (modbus.ReadCjcEnabled(1), "01462d02", Fault.VALUE, 3, "enabled .*allowed: 0 1"),
-        (modbus.ReadChannelMask(1), "0146250101", Fault.LENGTH, 3, "address and PDU of 3 bytes and what follows"),
+        (modbus.ReadChannelMask(1), "0146250101", Fault.LENGTH, 3, "address and PDU of 3 bytes and more"),
     ],
     ids=lambda value: type(value).__name__ if isinstance(value, modbus.Message) else "",
 )
-def test_a_frame_that_does_not_answer_the_request_is_told_what_is_wrong_and_where(
+def test_a_frame_that_does_not_answer_the_request_raises_the_fault_and_its_place(
     request_: Any, body: str, fault: Fault, offset: int, said: str
 ) -> None:
     with pytest.raises(DecodeError, match=said) as caught:
@@ -383,7 +391,7 @@ def test_any_request_can_be_answered_with_any_exception(request_: Any, code: int
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 2000])
-def test_as_many_bits_are_told_as_were_asked_for(count: int) -> None:
+def test_a_response_has_as_many_bits_as_requested(count: int) -> None:
     values = tuple(at % 3 == 0 for at in range(count))
     answer = modbus.encode(modbus.Coils(0x01, values))
 

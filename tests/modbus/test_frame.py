@@ -36,7 +36,7 @@ def test_a_frame_of_any_other_length_is_refused(length: int) -> None:
     assert (Fault.LENGTH, min(length, LONGEST_FRAME)) == (caught.value.fault, caught.value.offset)
 
 
-def test_a_wrong_crc_is_told_with_the_right_one() -> None:
+def test_the_error_for_a_wrong_crc_has_the_right_one() -> None:
     with pytest.raises(DecodeError, match=r"crc at byte 6 of .*; allowed: f1cc \(manual 3\)") as caught:
         unseal(bytes.fromhex("010400000008f1cd"))
 

@@ -61,7 +61,9 @@ def test_an_offset_is_described_in_the_unit_of_what_was_asked_for(channel: int, 
         ((0x0B, 4, 100), None),
     ],
 )
-def test_three_bytes_are_a_firmware_version_or_none(version: tuple[int, int, int], firmware: Firmware | None) -> None:
+def test_three_bytes_are_a_firmware_version_or_invalid(
+    version: tuple[int, int, int], firmware: Firmware | None
+) -> None:
     told = modbus.FirmwareVersion(1, *version).firmware
 
     assert firmware == told
@@ -69,7 +71,7 @@ def test_three_bytes_are_a_firmware_version_or_none(version: tuple[int, int, int
 
 
 @pytest.mark.parametrize(("name", "series"), [("00701700", "7017"), ("00701900", "7019"), ("00701952", None)])
-def test_four_bytes_are_the_name_of_a_series_or_none(name: str, series: str | None) -> None:
+def test_four_bytes_are_the_name_of_a_series_or_unknown(name: str, series: str | None) -> None:
     assert modbus.ModuleName(1, bytes.fromhex(name)).series == series
 
 

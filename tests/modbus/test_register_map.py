@@ -101,7 +101,7 @@ def test_a_module_without_a_map_has_nothing() -> None:
     registers = RegisterMap(Profile(Model.I_7017))
 
     assert list(registers) == []
-    with pytest.raises(EncodeError, match="I-7017 has no register 'protocol': it has none"):
+    with pytest.raises(EncodeError, match="I-7017 has no register 'protocol': it has no address map"):
         registers.find("protocol")
 
 
@@ -306,7 +306,7 @@ def test_a_value_is_written_in_the_unit_of_its_row(
     ],
     ids=str,
 )  # fmt: skip
-def test_items_are_told_in_the_unit_of_their_row(
+def test_items_are_decoded_in_the_unit_of_their_row(
     registers: RegisterMap, key: str | int, items: Any, value: Any
 ) -> None:
     told = registers.decode(key, items)
@@ -349,29 +349,39 @@ def test_the_coil_big_endian_says_which_word_of_32_bits_is_first() -> None:
         (M_7017, "channel_mask", 0x100, r"channel_mask cannot be 256: 0\.\.255"),
         (M_7017, "host_watchdog_timeout_count", 1, "host_watchdog_timeout_count cannot be 1: 0, manual"),
         (M_7017, "host_watchdog_timed_out", False, "host_watchdog_timed_out cannot be False: 1, manual"),
-        (M_7017, "response_delay", True, "a number, or what stands for it"),
-        (M_7017, "host_watchdog_timeout_count", False, "a number, or what stands for it"),
-        (M_7017, "modbus_data_format", Protocol.MODBUS_RTU, "a number, or what stands for it"),
-        (M_7017, "filter", CjcUpdate.STARTED, "a number, or what stands for it"),
-        (M_7017, "line_settings", TypeCode.V_10, "a number, or what stands for it"),
-        (M_7017, "module_type_code", BaudRate.BAUD_38400, "a number, or what stands for it"),
+        (M_7017, "response_delay", True, "a number or a value of the row's type"),
+        (M_7017, "host_watchdog_timeout_count", False, "a number or a value of the row's type"),
+        (M_7017, "modbus_data_format", Protocol.MODBUS_RTU, "a number or a value of the row's type"),
+        (M_7017, "filter", CjcUpdate.STARTED, "a number or a value of the row's type"),
+        (M_7017, "line_settings", TypeCode.V_10, "a number or a value of the row's type"),
+        (M_7017, "module_type_code", BaudRate.BAUD_38400, "a number or a value of the row's type"),
         (M_7019R, 40258, (TypeCode.K, TypeCode.J), r"cannot be \('K', 'J'\): 1 value$"),
-        (M_7017, "response_delay", None, "a number, or what stands for it"),
-        (M_7017, "response_delay", "1", "a number, or what stands for it"),
-        (M_7017, "response_delay", float("nan"), "a number, or what stands for it"),
-        (M_7017, "response_delay", float("inf"), "a number, or what stands for it"),
-        (M_7017, "response_delay", 10**400, "a number, or what stands for it"),
-        (M_7017, "response_delay", Filter.REJECT_50_HZ, "a number, or what stands for it"),
-        (M_7017, "response_delay", LineSettings(), "a number, or what stands for it"),
+        (M_7017, "response_delay", None, "a number or a value of the row's type"),
+        (M_7017, "response_delay", "1", "a number or a value of the row's type"),
+        (M_7017, "response_delay", float("nan"), "a number or a value of the row's type"),
+        (M_7017, "response_delay", float("inf"), "a number or a value of the row's type"),
+        (M_7017, "response_delay", 10**400, "a number or a value of the row's type"),
+        (M_7017, "response_delay", Filter.REJECT_50_HZ, "a number or a value of the row's type"),
+        (M_7017, "response_delay", LineSettings(), "a number or a value of the row's type"),
         (M_7017, "response_delay", (1, 2), r"response_delay cannot be \(1, 2\): 1 value$"),
         (M_7017, "response_delay", (), r"1 value$"),
-        (M_7018, "cjc_offset", (0.0,) * 7, "8 values, one a channel; or channels="),
-        (M_7019R, "type_code", TypeCode.K, r"'K': 8 values, one a channel; or channels=range\(0, 1\) to write one$"),
+        (M_7018, "cjc_offset", (0.0,) * 7, "8 values, one for each channel; or channels="),
+        (
+            M_7019R,
+            "type_code",
+            TypeCode.K,
+            r"'K': 8 values, one for each channel; or channels=range\(0, 1\) to write one$",
+        ),
         (M_7018, "cjc_offset", (12.8,) * 8, r"cjc_offset cannot be 12\.8: -12\.8\.\.12\.7 degC in steps of 0\.1"),
         (M_7018, "module_cjc_offset", 40.97, r"-40\.96\.\.40\.96 degC in steps of 0\.01"),
-        (M_7017, "module_type_code", TypeCode.K, r"module_type_code cannot be 'K': V_10 V_5 .*: M-7017, manual 1\.11"),
+        (
+            M_7017,
+            "module_type_code",
+            TypeCode.K,
+            r"module_type_code cannot be 'K': V_10 V_5 .* on M-7017, manual 1\.11",
+        ),
         (M_7019R, "type_code", (0x07,) * 7 + (0x1D,), r"type_code cannot be 29: 0\.\.28"),
-        (M_7019R, "type_code", (0x1B,) * 8, "type_code cannot be 'V_150': .*: M-7019R"),
+        (M_7019R, "type_code", (0x1B,) * 8, "type_code cannot be 'V_150': .* on M-7019R"),
         (M_7017, "line_settings", LineSettings(0x3F), r"baud_rate cannot be '3F': 03\.\.0A"),
         (M_7017, "line_settings", 0x0B, r"baud_rate cannot be '0B': 03\.\.0A, manual 3\.4"),
         (M_7017, "line_settings", 0xCB, r"line_settings cannot be 203: 3\.\.202"),
@@ -425,9 +435,7 @@ def test_a_line_that_the_firmware_does_not_have_is_not_written() -> None:
     ],
     ids=str,
 )
-def test_items_that_are_no_value_of_a_row_are_told_so(
-    registers: RegisterMap, key: str | int, items: Any, fault: Fault
-) -> None:
+def test_invalid_items_of_a_row_are_refused(registers: RegisterMap, key: str | int, items: Any, fault: Fault) -> None:
     with pytest.raises(DecodeError) as caught:
         registers.decode(key, items)
 
@@ -439,11 +447,11 @@ def test_items_that_are_no_value_of_a_row_are_told_so(
     ("registers", "key", "items", "said"),
     [
         (M_7017, "response_delay", [1, 2], "count in response_delay .*; allowed: 1 items, not 2"),
-        (M_7017, "host_watchdog_enabled", [7], r"allowed: 0\.\.1, item 0 is none"),
-        (M_7017, "analog_input", [0] * 7 + [-1], r"allowed: 0\.\.65535, item 7 is none"),
+        (M_7017, "host_watchdog_enabled", [7], r"allowed: 0\.\.1; item 0 is 7"),
+        (M_7017, "analog_input", [0] * 7 + [-1], r"allowed: 0\.\.65535; item 7 is -1"),
         (M_7019R, "cjc_update", [3], r"allowed: 0\.\.2, not 3"),
         (M_7018, "cjc_offset", [0xFF80] * 8, "allowed: 00 in the high byte, not FF"),
-        (UNKNOWN_TYPES, 30001, [0], "number in type_codes .*; allowed: none: the profile knows no types"),
+        (UNKNOWN_TYPES, 30001, [0], "number in type_codes .*; allowed: a profile with type codes; this one has none"),
     ],
     ids=str,
 )
@@ -455,7 +463,7 @@ def test_an_error_says_what_could_be_there(registers: RegisterMap, key: str | in
 # --- channels ---------------------------------------------------------------------------------------------------------
 
 
-def test_some_channels_of_a_row_are_read_written_and_told() -> None:
+def test_some_channels_of_a_row_are_read_written_and_decoded() -> None:
     mixed = RegisterMap(evolve(M_7019R.profile, type_codes=(TypeCode.V_10,) * 6 + (TypeCode.K,) * 2))
 
     assert modbus.ReadInputRegisters(1, 5, 2) == mixed.read(0x01, "analog_input", channels=range(5, 7))
@@ -475,7 +483,9 @@ def test_readings_of_channels_that_the_connecting_mode_does_not_have_are_not_rea
     assert modbus.ReadInputRegisters(1, 10, 2) == single_ended.read(0x01, "analog_input", channels=several)
     assert modbus.ReadHoldingRegisters(1, 266, 2) == M_7017Z.read(0x01, "type_code", channels=several)
     for key, channels in (("analog_input", several), ("analog_input", range(9, 11)), (30011, None), (40020, None)):
-        with pytest.raises(EncodeError, match=r"channels cannot be range\(.*\): a range within 0\.\.9, in this"):
+        with pytest.raises(
+            EncodeError, match=r"channels cannot be range\(.*\): a range within 0\.\.9, the channels of this"
+        ):
             M_7017Z.read(0x01, key, channels=channels)
     with pytest.raises(DecodeError, match=r"allowed: channels 0\.\.9 of the profile"):
         M_7017Z.decode("analog_input", [0, 0], channels=several)
@@ -489,8 +499,8 @@ def test_readings_of_channels_that_the_connecting_mode_does_not_have_are_not_rea
         ("analog_input", range(-1, 2), r"a range within 0\.\.7"),
         ("analog_input", range(3, 3), r"a range within 0\.\.7"),
         ("analog_input", range(0, 4, 2), r"a range within 0\.\.7"),
-        ("response_delay", range(1), "none: response_delay is not for single channels"),
-        ("module_name", range(2), "none: module_name is not for single channels"),
+        ("response_delay", range(1), "no channels: response_delay is a single value"),
+        ("module_name", range(2), "no channels: module_name is a single value"),
     ],
 )
 def test_channels_are_a_range_of_what_the_row_has(key: str, channels: range, said: str) -> None:
@@ -524,7 +534,7 @@ def test_words_are_readings_in_the_format_of_the_profile(
 
 @pytest.mark.parametrize("word", [1.5, "a", None, True, -1, 0x10000])
 def test_what_is_no_word_is_no_reading(word: Any) -> None:
-    with pytest.raises(DecodeError, match=r"number in words .*; allowed: 0\.\.65535, item 1 is none") as caught:
+    with pytest.raises(DecodeError, match=r"number in words .*; allowed: 0\.\.65535; item 1 is ") as caught:
         modbus.readings([0, word], M_7017.profile)
 
     assert (caught.value.fault, caught.value.wire) == (Fault.NUMBER, b"")
@@ -635,7 +645,7 @@ def test_a_plan_needs_a_response_for_each_request() -> None:
         plan.decode([modbus.Coils(0x01, (True,))])
 
 
-def test_a_response_with_too_few_items_is_told_so() -> None:
+def test_a_response_with_too_few_items_is_refused() -> None:
     plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
 
     with pytest.raises(DecodeError, match=r"count in responses .*; allowed: 2 items, not 1"):
@@ -654,7 +664,7 @@ def test_a_response_with_too_few_items_is_told_so() -> None:
     ],
     ids=str,
 )
-def test_a_response_that_does_not_answer_its_request_is_told_so(response: Any, fault: Fault, allowed: str) -> None:
+def test_a_response_that_does_not_answer_its_request_is_refused(response: Any, fault: Fault, allowed: str) -> None:
     plan = M_7017.plan(0x01, ["response_delay", "host_watchdog_timeout"])
 
     with pytest.raises(DecodeError) as caught:
@@ -668,7 +678,9 @@ def test_a_response_that_does_not_answer_its_request_is_told_so(response: Any, f
 
 @pytest.mark.parametrize("keys", [[30001, 40001], [30001, 30002], ["analog_input", 30001], ["40003", "analog_input"]])
 def test_two_things_of_one_name_are_not_planned(keys: list[str | int]) -> None:
-    with pytest.raises(EncodeError, match="analog_input is asked for twice, and values go by name: one row or channel"):
+    with pytest.raises(
+        EncodeError, match="analog_input is requested twice, but values are returned by name: each name once"
+    ):
         M_7017.plan(0x01, keys)
 
 
@@ -698,7 +710,7 @@ def test_what_can_only_be_written_cannot_be_planned() -> None:
         M_7019R.plan(0x01, ["load_factory_calibration"])
 
 
-def test_a_number_is_of_the_area_that_it_tells() -> None:
+def test_a_number_selects_the_area_of_its_first_digit() -> None:
     registers = modbus.RegisterMap(Profile(Model.M_7017))
 
     with pytest.raises(EncodeError, match="has no register '40489'"):

@@ -209,7 +209,7 @@ def test_a_stream_is_split_as_the_vector_says_however_it_arrives(vector: Record)
 
 @pytest.mark.parametrize("size", [1, 4, 1 << 20])
 @pytest.mark.parametrize("side", [Side.RESPONSES, Side.BOTH])
-def test_without_a_profile_the_crc_tells_how_long_a_mask_is(side: Side, size: int) -> None:
+def test_without_a_profile_the_crc_decides_the_length_of_a_mask(side: Side, size: int) -> None:
     masks = [bytes.fromhex(it) for it in (MASK_24, MASK_8, MASK_16, MASK_24, MASK_16, MASK_8)]
 
     events, rest = fed(b"".join(masks), size, side)
@@ -281,7 +281,7 @@ def test_an_echo_is_taken_off_as_it_comes_in() -> None:
 
 
 @pytest.mark.parametrize("at", range(8))
-def test_what_is_no_echo_is_told_where_it_differs(at: int) -> None:
+def test_a_wrong_echo_raises_the_place_of_the_difference(at: int) -> None:
     sent = bytes.fromhex(READ)
     received = sent[:at] + bytes((sent[at] ^ 1,)) + sent[at + 1 :]
 

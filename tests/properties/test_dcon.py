@@ -459,7 +459,7 @@ def test_a_response_is_among_its_meanings(exchange: Exchange) -> None:
 
 
 @given(exchanges())
-def test_no_response_is_longer_than_was_told(exchange: Exchange) -> None:
+def test_no_response_is_longer_than_the_longest_response(exchange: Exchange) -> None:
     longest = dcon.longest_response(exchange.command, exchange.profile)
 
     assert len(exchange.response_wire) <= longest <= dcon.LONGEST_FRAME
@@ -468,9 +468,7 @@ def test_no_response_is_longer_than_was_told(exchange: Exchange) -> None:
 @each_command
 @FEW
 @given(data=st.data())
-def test_the_longest_response_is_told_exactly_where_its_length_is_fixed(
-    kind: type[dcon.Command[Any]], data: st.DataObject
-) -> None:
+def test_the_longest_response_is_exact_for_a_fixed_length(kind: type[dcon.Command[Any]], data: st.DataObject) -> None:
     exchange = data.draw(exchanges(kind))
     assume(type(exchange.response) is kind.response)
     assume(not exchange.profile.legacy_sentinels)

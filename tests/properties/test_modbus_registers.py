@@ -99,7 +99,7 @@ def test_some_channels_are_written_and_read_like_all(data: st.DataObject) -> Non
 
 
 @given(register_maps() | profiles(Model.M_7017mC_16, known_types=True).map(RegisterMap), st.data())
-def test_readings_and_records_are_read_as_the_module_told_them(found: RegisterMap, data: st.DataObject) -> None:
+def test_readings_and_records_are_decoded_as_the_module_sent_them(found: RegisterMap, data: st.DataObject) -> None:
     told = [row for row in found if row.kind in (Kind.READING, Kind.RECORD)]
     row = data.draw(st.sampled_from(told))
     items = data.draw(register_items(row, found.profile))

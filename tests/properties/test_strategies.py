@@ -183,7 +183,7 @@ def test_profiles_of_every_sort_are_made(wanted: Any) -> None:
     assert wanted(find(profiles(), wanted, settings=ONCE))
 
 
-def test_a_module_in_init_mode_may_tell_any_address() -> None:
+def test_a_module_in_init_mode_may_answer_with_any_address() -> None:
     command = dcon.ReadConfiguration(0x00)
 
     def elsewhere(response: dcon.Response) -> bool:

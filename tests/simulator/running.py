@@ -156,7 +156,7 @@ class Network(asyncio.Transport):
         self.closed = True
 
     def get_write_buffer_size(self) -> int:
-        """Tell how much waits for the host."""
+        """Return how many bytes wait for the host."""
         return self.unread
 
     def write(self, data: Any) -> None:

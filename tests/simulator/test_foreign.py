@@ -22,7 +22,7 @@ ASKED = modbus.encode(modbus.ReadInputRegisters(1, 0, 8))
 def observed(
     modules: list[Simulated], *pieces: bytes, pause: float = 0.0, faults: Faults | None = None
 ) -> list[Observed]:
-    """What is told of what a host sends."""
+    """The events of the bytes that a host sends."""
     told: list[Observed] = []
 
     async def converse() -> None:
@@ -64,7 +64,7 @@ def test_frames_in_pieces_and_several_at_once_are_found() -> None:
     assert models(observed([I_7018], *[bytes((byte,)) for byte in ASKED + ASKED])) == [(ASKED, RTU, "I-7018")] * 2
 
 
-def test_each_frame_is_told_once() -> None:
+def test_each_frame_is_reported_once() -> None:
     assert models(observed([I_7018], ASKED, ASKED, b"$01M\r", pause=0.05)) == [
         (ASKED, RTU, "I-7018"),
         (ASKED, RTU, "I-7018"),
@@ -89,13 +89,13 @@ def test_noise_stays_noise() -> None:
     assert models(observed([I_7018], ASKED[:-1])) == [(Noise(ASKED[:-1], Fault.LEADING), DCON, None)]
 
 
-def test_noise_before_a_frame_is_told_before_it() -> None:
+def test_noise_before_a_frame_is_reported_before_it() -> None:
     told = observed([I_7018], b"\xff\xfe", b"$01M\r")
 
     assert [it.heard for it in told] == [Noise(b"\xff\xfe", Fault.LEADING), b"$01M\r"]
 
 
-def test_noise_without_an_end_is_told_at_once() -> None:
+def test_noise_without_an_end_is_reported_at_once() -> None:
     told: list[Observed] = []
 
     async def converse() -> None:
@@ -109,7 +109,7 @@ def test_noise_without_an_end_is_told_at_once() -> None:
 
 
 @pytest.mark.parametrize(("spoken", "frame"), [(M_7017, b"$02M\r"), (I_7018, ASKED)])
-def test_what_happened_to_a_frame_of_the_other_protocol_is_told_with_it(spoken: Simulated, frame: bytes) -> None:
+def test_the_faults_of_a_frame_of_the_other_protocol_are_reported_with_it(spoken: Simulated, frame: bytes) -> None:
     (told,) = observed([spoken], frame, faults=Faults(noise=1.0))
 
     assert told.heard == frame

@@ -224,7 +224,7 @@ def test_a_file_of_100_megabytes_is_refused_before_it_is_read(path: Path) -> Non
 @pytest.mark.parametrize(
     ("digits", "shown"), [("9" * 20, "9" * 20), ("-" + "9" * 19, "-" + "9" * 19), ("1" * 21, "a number of 21 digits")]
 )
-def test_a_number_of_more_than_20_digits_is_told_by_its_length(path: Path, digits: str, shown: str) -> None:
+def test_the_error_for_a_number_of_more_than_20_digits_has_its_length(path: Path, digits: str, shown: str) -> None:
     error = refusal(path, saved(path).replace('"cjc_offset": 0', f'"cjc_offset": {digits}', 1))
 
     assert error.place == "modules[0].cjc_offset"
@@ -408,7 +408,7 @@ def test_more_records_than_a_log_has_room_for_are_refused(path: Path) -> None:
     )
 
 
-def test_an_error_tells_the_file_the_place_and_what_is_allowed(path: Path) -> None:
+def test_an_error_names_the_file_the_place_and_the_allowed_values(path: Path) -> None:
     error = refusal(path, saved(path).replace('"cjc_offset": 0', '"cjc_offset": 5000', 1))
 
     assert str(error) == f"{path}: modules[0].cjc_offset: cannot be 5000; allowed: -4096..4096 (manual 3.4)"
@@ -416,7 +416,7 @@ def test_an_error_tells_the_file_the_place_and_what_is_allowed(path: Path) -> No
     assert isinstance(error, ValueError)
 
 
-def test_a_reason_is_told_where_there_is_one(path: Path) -> None:
+def test_an_error_has_its_reason_if_there_is_one(path: Path) -> None:
     only_i = evolve(factory(Model.I_7018), type_codes=(TypeCode.K,) * 8)
     save(path, [only_i])
     mixed = path.read_text("ascii").replace('["0F"', '["0E"')
@@ -424,6 +424,6 @@ def test_a_reason_is_told_where_there_is_one(path: Path) -> None:
     assert "one type for all channels" in str(refusal(path, mixed))
 
 
-def test_a_file_that_is_not_there_is_told_as_such(path: Path) -> None:
+def test_a_missing_file_is_reported(path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         load(path)

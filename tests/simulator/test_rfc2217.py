@@ -125,7 +125,7 @@ def test_masks_and_purging_are_confirmed(number: int, value: bytes) -> None:
 
 
 @pytest.mark.parametrize(("number", "state"), [(6, b"\0"), (7, b"\xb0")])
-def test_the_state_of_the_line_is_told_to_who_asks(number: int, state: bytes) -> None:
+def test_the_state_of_the_line_is_sent_on_request(number: int, state: bytes) -> None:
     assert Spoken(command(number)).heard == command(100 + number, state)
 
 
@@ -238,7 +238,7 @@ def test_any_bytes_are_taken(pieces: list[bytes]) -> None:
     assert len(spoken.heard) <= 100 + 20 * sum(map(len, pieces))
 
 
-def test_pyserial_is_told_the_modem_state_and_can_change_its_mind() -> None:
+def test_pyserial_gets_the_modem_state_and_can_change_settings() -> None:
     with running(RFC_2217, I_7018) as here, port(here, "rfc2217", baudrate=19200) as opened:
         opened.timeout = 0.1
         unheard = ask(opened, b"$01M\r", 8)

@@ -236,7 +236,7 @@ def test_the_same_seed_has_the_same_faults() -> None:
     assert first != heard(2)
 
 
-def test_what_happened_to_a_frame_is_told_with_what_was_heard_of_it() -> None:
+def test_the_faults_of_a_frame_are_reported_with_the_frame() -> None:
     """A request by Modbus that was damaged is heard only when the line is silent."""
     spoken = module(Model.M_7017, protocol=Protocol.MODBUS_RTU)
 
@@ -415,7 +415,7 @@ def test_a_host_that_never_ends_leaves_the_others_their_turn(scheme: str) -> Non
 
 
 @every_transport
-def test_noise_is_told_and_does_not_matter(scheme: str) -> None:
+def test_noise_is_reported_and_has_no_effect(scheme: str) -> None:
     with running(TRANSPORTS[scheme], I_7018) as here, port(here, scheme) as opened:
         opened.write(bytes(range(256)) * 20)
 

@@ -117,7 +117,7 @@ def test_a_place_that_is_taken_is_named() -> None:
 
 @pytest.mark.parametrize(
     ("host", "said"),
-    [("no-such-host.invalid", "'no-such-host.invalid' is no host: "), ("a" * 70, "cannot be the name of a host")],
+    [("no-such-host.invalid", "'no-such-host.invalid' is not a host: "), ("a" * 70, "cannot be the name of a host")],
 )
 def test_a_name_that_no_host_has_is_named(host: str, said: str) -> None:
     with pytest.raises(OSError, match=said):

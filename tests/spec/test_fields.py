@@ -132,7 +132,7 @@ TOLD_ONLY = [
 
 
 @pytest.mark.parametrize(("row", "field"), TOLD_ONLY)
-def test_a_field_that_is_only_told_has_the_limits_of_its_form(row: Record, field: Record) -> None:
+def test_a_field_only_of_responses_has_the_limits_of_its_form(row: Record, field: Record) -> None:
     found = taken(row["response"], field, having(row["section"]))
 
     assert wrong([Cell(DCON_FILE, row_id(row), field["name"], found, [False, True, True, False])]) == []
@@ -184,7 +184,7 @@ def offset_unit() -> str:
 
 
 def temperature_unit() -> str:
-    """What is told of a cold junction of 25 degrees Celsius."""
+    """The response for a cold junction of 25 degrees Celsius."""
     module = power_on(factory(Model.I_7018), now=0.0)
     _, answer = step(module, b"$013\r", Signals(cold_junction=25.0), 0.0)
     return str(Unit.CELSIUS) if answer == b">+0025.0\r" else "?"
@@ -225,7 +225,7 @@ BYTES = {"result", "line_result", "protocol_result", "major", "minor", "build"}
 
 
 @pytest.mark.parametrize("sub_function", SETTINGS)
-def test_a_byte_of_a_response_has_the_limits_that_a_module_can_tell(sub_function: str) -> None:
+def test_a_byte_of_a_response_has_the_limits_of_what_a_module_sends(sub_function: str) -> None:
     row = SETTINGS[sub_function]
     cells = []
     for field in row["response_fields"]:

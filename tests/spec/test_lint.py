@@ -262,7 +262,7 @@ def test_a_response_has_one_shape_wherever_it_stands() -> None:
     assert len(shapes) == len({response for response, _, _ in shapes})
 
 
-def test_commands_with_one_syntax_are_told_apart_by_the_model() -> None:
+def test_commands_with_one_syntax_are_distinguished_by_the_model() -> None:
     by_syntax: dict[str, list[set[str]]] = {}
     for row in COMMANDS.values():
         by_syntax.setdefault(row["syntax"], []).append(set(row["models"]))

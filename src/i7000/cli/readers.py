@@ -113,12 +113,12 @@ def of_capture(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol |
             yield Read(line.count, at, at, f"byte {packet.offset}", None, None, Missing.DAMAGE, packet.reason)
             continue
         if before is not None and _is_apart(before, packet):
-            line, found = flush(line, f"packet {before.number}")
+            line, found = flush(line, f"packet {before.number}", sent=before.outbound)
             yield from (_frame(heard, before.number, before) for heard in found)
-        line, found = hear(line, packet.wire, f"packet {packet.number}")
+        line, found = hear(line, packet.wire, f"packet {packet.number}", sent=packet.outbound)
         yield from (_frame(heard, packet.number, packet) for heard in found)
         before = packet
-    line, found = flush(line)
+    line, found = flush(line, sent=before.outbound if before else None)
     yield from (_frame(heard, before.number if before else 0, before) for heard in found)
 
 

@@ -141,7 +141,7 @@ class ReloadDefaultCalibration(Command[Acknowledged]):
 
     syntax = "$AAS1"
     section = "2.28"
-    title = "default calibration to reload"
+    title = "reload of the default calibration"
     availability = Availability.SOFT_INIT
 
 

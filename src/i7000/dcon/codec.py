@@ -124,7 +124,7 @@ def decode_command(frame: bytes, profile: Profile) -> AnyCommand:
         refused = command
     if refused is not None:
         at = 3 if body[0] in _LETTERED else 1
-        allowed = f"{refused.title} is there on {refused.availability.scope}"
+        allowed = f"{refused.title} exists on {refused.availability.scope}"
         raise DecodeError(Fault.UNSUPPORTED, frame, at, allowed=allowed, section=refused.section)
     if not known or (body[0] in _LETTERED and len(body) <= 3 and body[1:2] != "*"):
         fault = Fault.COMMAND if len(body) > 3 else Fault.LENGTH
@@ -172,15 +172,16 @@ def decode_response(frame: bytes, command: Command[R], profile: Profile) -> R | 
 def _check_echo(response: Any, command: Command[Any], frame: bytes) -> None:  # noqa: ANN401 - one with an address
     """Check the parts of a response that repeat the command."""
     expected = command.address if isinstance(response, Refused) else command.answering_address
-    told_in_init_mode = isinstance(command, ReadConfiguration) and command.address == 0
-    if response.address != expected and not told_in_init_mode:
+    in_init_mode = isinstance(command, ReadConfiguration) and command.address == 0
+    if response.address != expected and not in_init_mode:
         allowed = f"{expected:02X}"
         raise DecodeError(Fault.ADDRESS, frame, 1, field="address", allowed=allowed, section=command.section)
     if isinstance(response, ChannelTypeCode) and response.channel != getattr(command, "channel", None):
-        raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed="the one asked for", section=command.section)
+        allowed = "the requested channel"
+        raise DecodeError(Fault.VALUE, frame, 4, field="channel", allowed=allowed, section=command.section)
 
 
-# --- what a driver has to plan for ------------------------------------------------------------------------------------
+# --- timing and lengths -----------------------------------------------------------------------------------------------
 
 
 def is_answered(command: AnyCommand) -> bool:

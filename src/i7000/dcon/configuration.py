@@ -119,7 +119,7 @@ class SetChannelTypeCode(Command[Acknowledged]):
 
     syntax = "$AA7CiRrr"
     section = "2.15"
-    title = "type code of single channels"
+    title = "type code of a channel"
     availability = Availability.CONFIGURABLE
 
     channel: parts.ChannelI
@@ -161,7 +161,7 @@ class ReadChannelTypeCode(Command[ChannelTypeCode]):
 
     syntax = "$AA8Ci"
     section = "2.16"
-    title = "type code of single channels"
+    title = "type code of a channel"
     availability = Availability.CONFIGURABLE
 
     channel: parts.ChannelI

@@ -76,7 +76,7 @@ def unseal(frame: bytes, *, checksum: bool, leads: bytes = _LEADS) -> bytes:
     if _CHECKSUMS[sum(body) & 0xFF] != frame[-3:-1] or not body:
         if len(frame) <= len("!FF"):
             raise DecodeError(
-                Fault.LENGTH, frame, len(frame) - 1, allowed="a leading character and a checksum at least", section="2"
+                Fault.LENGTH, frame, len(frame) - 1, allowed="at least a leading character and a checksum", section="2"
             )
         raise DecodeError(
             Fault.CHECKSUM, frame, len(body), field="checksum", allowed=f"{sum(body) & 0xFF:02X}", section="2"

@@ -41,7 +41,7 @@ def check_values(message: Message, values: tuple[str, ...], data_format: DataFor
     """Raise `EncodeError` for fields that are not those of the module's channels."""
     legacy = profile.legacy_sentinels
     if len(values) != profile.channels or not all(is_field(value, data_format, legacy=legacy) for value in values):
-        allowed = f"{profile.channels} {data_format.name.lower()} fields: {profile.model.value}"
+        allowed = f"{profile.channels} {data_format.name.lower()} fields on {profile.model.value}"
         raise EncodeError("values", values, allowed, message.section)
 
 
@@ -150,7 +150,7 @@ class ReadAnalogInputsHex(Command[AnalogInputsHex]):
 
     syntax = "$AAA"
     section = "2.19"
-    title = "reading of all channels in hex"
+    title = "readings of all channels in hex"
     availability = Availability.SERIES_7017
 
 

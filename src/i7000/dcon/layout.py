@@ -1,32 +1,32 @@
 """The compiler of DCON message classes: from a syntax to a constructor, an encoder and a decoder.
 
-A message class has the manual's notation in `syntax`. Each field is annotated with its part of that notation: ``syntax
-= "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: CjcOffset`` (``SNNNN``), in the order of the notation.
-Characters between the parts are literal. At its first use, a class is compiled to straight-line code: slices, look-ups
-and one ``%``.
+A message class has the manual's notation in `syntax`. Each field is annotated with its part of that notation:
+``syntax = "$AA9SNNNN"`` with ``address: Address`` (``AA``) and ``offset: CjcOffset`` (``SNNNN``), in the order of the
+notation. Characters between the parts are literal. At its first use, a class is compiled to straight-line code: slices,
+look-ups and one ``%``.
 
 Laws: the constructor accepts exactly the values for which a part's `accepts` is true.
 
 >>> from i7000 import dcon
 >>> print(dcon.SetCjcOffset.layout.source)
 def construct(self, address, offset):
-if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
-    refuse('address', address)
-if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
-    refuse('offset', offset)
-set_address(self, address)
-set_offset(self, offset)
+    if not (address.__class__ is int and 0 <= address <= 255) and not accepts_address(address):
+        refuse('address', address)
+    if not (offset.__class__ is int and -65535 <= offset <= 65535) and not accepts_offset(offset):
+        refuse('offset', offset)
+    set_address(self, address)
+    set_offset(self, offset)
 <BLANKLINE>
 def encode(m, p):
-return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
+    return b'$%02X9%c%04X' % (m.address, 43 if m.offset >= 0 else 45, abs(m.offset), )
 <BLANKLINE>
 def decode(t, p):
-if len(t) != 9 or t[0] != '$' or t[3] != '9':
-    raise KeyError
-m = new(message)
-set_address(m, parse_address(t[1:3]))
-set_offset(m, parse_offset(t[4:9]))
-return m
+    if len(t) != 9 or t[0] != '$' or t[3] != '9':
+        raise KeyError
+    m = new(message)
+    set_address(m, parse_address(t[1:3]))
+    set_offset(m, parse_offset(t[4:9]))
+    return m
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -87,7 +87,7 @@ class Layout:
             if isinstance(part, Part) and isinstance(part.width, str) and part.width != "rest":
                 digits: int = getattr(profile, part.width)
                 if getattr(message, name) >> 4 * digits:
-                    allowed = f"{digits} hex digit(s): {profile.model.value}"
+                    allowed = f"{digits} hex digit(s) on {profile.model.value}"
                     raise EncodeError(name, getattr(message, name), allowed, message.section)
 
     def longest(self, profile: Profile) -> int:

@@ -258,7 +258,7 @@ Name = Annotated[
     _text(
         "(Name)",
         _NAME_LENGTHS,
-        f"{_NAME}; not the text of another answer (2, 4 or 6 hex digits, a version, ...)",
+        f"{_NAME}; not the text of another response (2, 4 or 6 hex digits, a version, ...)",
         is_name,
     ),
 ]

@@ -86,7 +86,7 @@ def fields(values: Iterable[Reading], profile: Profile) -> tuple[str, ...]:
         for value in values:
             check_type("values", value, Reading)
     if len(values) != len(profile.type_codes):
-        raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, as many as type codes", "1.11")
+        raise EncodeError("readings", len(values), f"{len(profile.type_codes)}, one for each type code", "1.11")
     return encode_fields(values, profile.type_codes, profile.data_format, legacy=profile.legacy_sentinels)
 
 
@@ -99,7 +99,7 @@ def field(value: Reading, channel: int, profile: Profile) -> str:
     check_type("value", value, Reading)
     types = _types_of(channel, profile)
     if not types:
-        raise EncodeError("channel", channel, f"0..{len(profile.type_codes) - 1}, those of a known type", "1.11")
+        raise EncodeError("channel", channel, f"0..{len(profile.type_codes) - 1}, channels of known type", "1.11")
     return encode_field(value, types[0], profile.data_format, legacy=profile.legacy_sentinels)
 
 
@@ -111,5 +111,5 @@ def _types_of(channel: int, profile: Profile) -> tuple[TypeCode, ...]:
 
 
 def _unknown_types(data: str, profile: Profile) -> DecodeError:
-    allowed = f"a profile that has a type code for each channel; this one has {len(profile.type_codes)}"
+    allowed = f"a profile with a type code for each channel; this one has {len(profile.type_codes)}"
     return DecodeError(Fault.NUMBER, data.encode(), field="type_codes", allowed=allowed, section="1.11")

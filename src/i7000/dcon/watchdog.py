@@ -21,7 +21,7 @@ __all__ = [
 
 @frozen
 class HostOk(Broadcast):
-    """A broadcast that tells all modules that the host is alive.
+    """A broadcast that restarts the host watchdog of all modules.
 
     Wire: ``~**``, no response
     Time: 2 ms before the next command.
@@ -30,7 +30,7 @@ class HostOk(Broadcast):
 
     syntax = "~**"
     section = "2.35"
-    title = "sign of life of the host"
+    title = "host OK broadcast"
 
 
 def _status(status: int) -> str:

@@ -50,7 +50,7 @@ class Ear:
         if self.uart is not None and not isinstance(self.uart, Uart):
             raise InvalidValueError("uart", self.uart, "a Uart, or None", "1.11")
         if not isinstance(self.rests, tuple) or not all(map(_is_rest, self.rests)):
-            raise InvalidValueError("rests", self.rests, "what `Bus.hear` left", "")
+            raise InvalidValueError("rests", self.rests, "the rests that `Bus.hear` returned", "")
         if not isinstance(self.told, bool):
             raise InvalidValueError("told", self.told, "True or False", "")
 
@@ -130,7 +130,7 @@ class Bus:
         for own in signals:
             check_type("signals", own, Signals)
         if len(signals) != len(self.modules):
-            raise InvalidValueError("signals", len(signals), f"{len(self.modules)}, those of each module", "")
+            raise InvalidValueError("signals", len(signals), f"{len(self.modules)}, one for each module", "")
         return signals
 
     def hear(
@@ -173,7 +173,7 @@ class Bus:
         return bus, ear, _without_foreign_noise(first + second)
 
     def silence(self, ear: Ear, signals: Sequence[Signals], now: float) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        """Let all modules hear a silence of 3.5 characters, which ends a frame of Modbus RTU.
+        """Process a silence of 3.5 characters for all modules; it ends a frame of Modbus RTU.
 
         Manual: 3.
         """
@@ -249,7 +249,7 @@ def _split(reception: Reception, heard: bytes) -> tuple[tuple[bytes | Noise, ...
     parts, rest = modbus.split(heard, modbus.Side.REQUESTS)
     last = parts[-1] if parts else b""
     if isinstance(last, Noise) and len(last.wire) + len(rest) <= modbus.LONGEST_FRAME:
-        return parts[:-1], last.wire + rest  # It could be a request of an unknown function: silence will tell.
+        return parts[:-1], last.wire + rest  # It could be a request of an unknown function: wait for silence.
     return parts, rest
 
 

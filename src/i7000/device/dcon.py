@@ -63,7 +63,7 @@ def _carry_out(call: Call) -> tuple[State, dcon.Response]:
     return _DONE[kind](call), dcon.Acknowledged(call.message.answering_address)
 
 
-# --- what it tells ----------------------------------------------------------------------------------------------------
+# --- responses --------------------------------------------------------------------------------------------------------
 
 
 def _configuration(call: Call) -> dcon.Configuration:
@@ -122,7 +122,7 @@ def _tell_sampled(call: Call) -> tuple[State, dcon.SynchronizedData]:
     return call.state.keep(sampled_data_told=True), response
 
 
-# --- what it does -----------------------------------------------------------------------------------------------------
+# --- actions ----------------------------------------------------------------------------------------------------------
 
 
 def _set_configuration(call: Call) -> State:

@@ -116,7 +116,7 @@ class Log:
         return self.clock_offset + now
 
     def running(self, now: float) -> bool:
-        """Return whether the logger runs: started, with a period and free records, and within its period mode limits."""
+        """Return whether the logger runs: started, with a period and free records, and within its start and end."""
         within = moment_of(self.start) <= self.clock(now) <= moment_of(self.end)
         return (
             self.command is not LogCommand.STOP

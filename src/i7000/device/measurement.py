@@ -128,7 +128,7 @@ def cold_junction(state: State, signals: Signals) -> float:
     return _junction(state, signals) + offset
 
 
-# --- how they are told ------------------------------------------------------------------------------------------------
+# --- reports ----------------------------------------------------------------------------------------------------------
 
 _OUT_OF_RANGE = (Status.OVER_RANGE, Status.UNDER_RANGE)
 

@@ -38,7 +38,7 @@ def inputs_of(model: Model) -> int:
     return model.single_ended_channels or model.channels
 
 
-# --- what is kept without power ---------------------------------------------------------------------------------------
+# --- the EEPROM -------------------------------------------------------------------------------------------------------
 
 Check = Callable[["Eeprom", "Attribute[Any]", Any], None]
 
@@ -63,7 +63,7 @@ def _one_each(check: Check) -> Check:
     def check_all(eeprom: "Eeprom", attribute: "Attribute[Any]", values: tuple[int, ...]) -> None:
         inputs = inputs_of(eeprom.model)
         if not isinstance(values, tuple) or len(values) != inputs:
-            raise InvalidValueError(attribute.name, values, f"a tuple of {inputs}: {eeprom.model.value}", "1.3")
+            raise InvalidValueError(attribute.name, values, f"a tuple of {inputs} on {eeprom.model.value}", "1.3")
         for value in values:
             check(eeprom, attribute, value)
 

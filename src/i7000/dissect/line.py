@@ -8,7 +8,7 @@ those before it. No bytes raise.
 """
 
 from i7000.arguments import as_bytes, check_type
-from i7000.dissect.heard import Heard, Line, Place, following
+from i7000.dissect.heard import Heard, Line, Place, updated
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_modbus
 from i7000.dissect.stream import split
@@ -18,10 +18,13 @@ from i7000.settings import Protocol
 __all__ = ["flush", "hear", "hear_frame"]
 
 
-def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
+def hear(
+    line: Line, data: bytes, where: str | None = None, *, sent: bool | None = None
+) -> tuple[Line, tuple[Heard, ...]]:
     r"""Hear the next bytes of a stream, in any pieces; what can still become a frame is kept in `Line.rest`.
 
-    Shape: `where` the bytes stand, for notes on later frames, which count them unless it is given.
+    Shape: `where` the bytes stand, for notes on later frames, which count them unless it is given; `sent`: whether the
+        host sent them, None if that is unknown. Flush where the direction changes.
 
     >>> line, heard = hear(Line(protocol=Protocol.DCON), b"$012\r!01")
     >>> line, more = hear(line, b"0F0600\r")
@@ -29,41 +32,47 @@ def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple
     ['ReadConfiguration', 'Configuration']
     """
     check_type("line", line, Line)
-    return _hear_split(line, line.rest + as_bytes("data", data), where, last=False)
+    return _hear_split(line, line.rest + as_bytes("data", data), where, sent=sent, last=False)
 
 
-def flush(line: Line, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
+def flush(line: Line, where: str | None = None, *, sent: bool | None = None) -> tuple[Line, tuple[Heard, ...]]:
     """Hear that nothing more comes for now: what is in `Line.rest` is a frame, or none."""
     check_type("line", line, Line)
-    return _hear_split(line, line.rest, where, last=True)
+    return _hear_split(line, line.rest, where, sent=sent, last=True)
 
 
-def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tuple[Line, tuple[Heard, ...]]:
+def _hear_split(
+    line: Line, data: bytes, where: str | None, *, sent: bool | None, last: bool
+) -> tuple[Line, tuple[Heard, ...]]:
     check_type("where", where, str, optional=True)
+    check_type("sent", sent, bool, optional=True)
     spans, rest = split(data, line.protocol, last=last)
     found = []
     for protocol, wire, fault in spans:
         if fault is None:
-            line, heard = hear_frame(line, wire, protocol, _next(line, where))
+            line, heard = _hear(line, wire, protocol, _next(line, where), sent=sent)
         else:
             place = _next(line, where)
-            line = following(line, place.number)
+            line = updated(line, count=place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
-    return following(line, line.count, rest=rest), tuple(found)
+    return updated(line, rest=rest), tuple(found)
 
 
-def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None = None) -> tuple[Line, Heard]:
+def hear_frame(
+    line: Line, wire: bytes, protocol: Protocol, place: Place | None = None, *, sent: bool | None = None
+) -> tuple[Line, Heard]:
     r"""Hear a frame, or bytes that stand where one should.
 
-    Shape: `place` of the frame; it has the next number if that is not given.
+    Shape: `place` of the frame; it has the next number if that is not given. `sent`: whether the host sent it, None if
+        that is unknown.
 
     >>> line, heard = hear_frame(Line(), b"$012\r", Protocol.DCON)
     >>> line, heard = hear_frame(line, b"!010F0600\r", Protocol.DCON)
     >>> heard.answers.where, heard.meanings[0].fields[1].text, line.knowledge.of(0x01).known.types
     ('frame 1', '0F, thermocouple K, -270..1372 degC', (<TypeCode.K: 15>,))
     """
-    if line.__class__ is not Line:
+    if line.__class__ is not Line:  # in place, as this is done for every frame
         raise ArgumentError("line", line, "Line")
     if protocol.__class__ is not Protocol:
         raise ArgumentError("protocol", protocol, "Protocol")
@@ -71,12 +80,15 @@ def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None 
         place = _next(line)
     elif place.__class__ is not Place or place.number.__class__ is not int:
         raise ArgumentError("place", place, "Place, with a number")
-    wire = as_bytes("wire", wire)
+    check_type("sent", sent, bool, optional=True)
+    return _hear(line, as_bytes("wire", wire), protocol, place, sent=sent)
+
+
+def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place, *, sent: bool | None) -> tuple[Line, Heard]:
     if not wire:
-        return following(line, place.number), Heard(
-            place, wire, protocol, error=DecodeError(Fault.LENGTH, wire, allowed="a frame")
-        )
-    return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place)
+        error = DecodeError(Fault.LENGTH, wire, allowed="a frame")
+        return updated(line, count=place.number), Heard(place, wire, protocol, error=error)
+    return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place, sent)
 
 
 def _next(line: Line, where: str | None = None) -> Place:

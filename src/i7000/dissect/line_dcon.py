@@ -3,12 +3,14 @@
 from functools import lru_cache
 from typing import NamedTuple
 
+from attrs import evolve
+
 from i7000 import dcon
 from i7000.dcon.frame import LONGEST_FRAME
 from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, following
+from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, updated
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -21,9 +23,14 @@ _REMEMBERED = 512
 """Exchanges that are not read again when they come again: a host that polls hears the same again and again."""
 
 
-def hear_dcon(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    """Hear a frame, which is a command or a response by its leading character."""
-    return (_hear_command if is_command(wire) else _hear_response)(line, wire, place)
+def hear_dcon(line: Line, wire: bytes, place: Place, sent: bool | None) -> tuple[Line, Heard]:  # noqa: FBT001
+    """Hear a frame, which is a command or a response by its leading character; `sent`: whether the host sent it."""
+    command = is_command(wire)
+    line, heard = (_hear_command if command else _hear_response)(line, wire, place)
+    if sent is None or sent is command:
+        return line, heard
+    note = "a command that the host received: an echo, or another host?" if command else "a response that the host sent"
+    return line, evolve(heard, notes=(*heard.notes, note))
 
 
 def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
@@ -41,7 +48,7 @@ def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         notes = (*notes, f"the same as {same_as.where}: an echo, or asked again")
     asked = Asked(place, wire, address) if read.error is None else None
     commands = Commands(asked, unanswered, None, answer)
-    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+    return updated(line, count=place.number, commands=commands), Heard(
         place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings, None, same_as, notes, read.error, (),
         read.contradictions,
     )  # fmt: skip
@@ -79,7 +86,7 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         knowledge, wrong = learn(knowledge, sender, read.meanings[0], place.where, read.shown)
         if wrong:
             contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
-    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+    return updated(line, knowledge=knowledge, count=place.number, commands=commands), Heard(
         place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings, answers, None, notes, read.error,
         read.candidates, contradictions,
     )  # fmt: skip

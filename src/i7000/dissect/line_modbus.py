@@ -7,7 +7,7 @@ from attrs import evolve
 
 from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, following
+from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, updated
 from i7000.dissect.known import Known
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -34,8 +34,8 @@ def _modbus_reader(known: Known) -> tuple[ModbusReader, tuple[str, ...]]:
         return ModbusReader(Known()), (f"a Modbus RTU frame, which {model} does not speak",)
 
 
-def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    """Hear a frame, which can be a request, a response or an echo.
+def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tuple[Line, Heard]:  # noqa: FBT001
+    """Hear a frame, which can be a request, a response or an echo; `sent`: whether the host sent it.
 
     Special: what is the same as the request before it is its response where it can be, unless the line is known to
         echo; a line is known to echo when a request came twice that cannot be its own response.
@@ -46,11 +46,11 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     asked, in_step, echoes = line.requests
     if len(wire) > modbus.LONGEST_FRAME:
         error: DecodeError | None = reader.request.__wrapped__(wire).error  # it is too long to be remembered
-        line = following(line, place.number, requests=Requests(None, in_step=False, echoes=echoes))
         causes = tuple(modbus_causes(wire, reader))
-        return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, notes=causes, error=error)
+        line = updated(line, count=place.number, requests=Requests(None, in_step=False, echoes=echoes))
+        return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, error=error, notes=causes)
     response = _NOTHING
-    if asked is not None and asked.meaning is not None and asked.address != modbus.BROADCAST:
+    if asked is not None and asked.meaning is not None and asked.address != modbus.BROADCAST and not sent:
         asked_reader, _ = _modbus_reader(knowledge.of(asked.address).known)
         response = asked_reader.response(wire, asked.meaning)
     direction: Direction | None = Direction.RESPONSE
@@ -69,7 +69,8 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         knowledge, wrong = learn(knowledge, address, meaning, place.where)
         contradictions += wrong
     else:
-        request, alone = reader.request(wire), reader.alone(wire)
+        request = _NOTHING if sent is False else reader.request(wire)
+        alone = _NOTHING if sent else reader.alone(wire)
         if request.meaning:
             direction, meaning = Direction.REQUEST, request.meaning
             notes = tuple(_request_notes(request.meaning, alone.meaning, response.error, line))
@@ -77,7 +78,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         elif alone.meaning and not response.error:
             meaning, notes = alone.meaning, ("read without its request",)
         else:
-            error, notes = response.error or request.error, tuple(modbus_causes(wire, reader))
+            error, notes = response.error or request.error or alone.error, tuple(modbus_causes(wire, reader))
             if alone.meaning:
                 candidates = (alone.meaning,)
             else:
@@ -87,7 +88,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     meanings: tuple[Meaning, ...] = ()
     if meaning is not None:
         meanings, notes = (with_facts(meaning, module),), meaning.notes + notes
-    return following(line, place.number, knowledge=knowledge, requests=requests), Heard(
+    return updated(line, knowledge=knowledge, count=place.number, requests=requests), Heard(
         place, wire, Protocol.MODBUS_RTU, direction, address, meanings, answers, same_as, notes, error, candidates,
         contradictions,
     )  # fmt: skip

@@ -37,7 +37,7 @@ class Task:
             print(outcome)  # noqa: T201 - what a program prints
             if refused is not None:
                 reason = refused.reason if isinstance(refused, Rejected) else refused.fault.value
-                print(f"heard instead: {refused.wire!r}: {reason}")  # noqa: T201
+                print(f"last rejected frame: {refused.wire!r}: {reason}")  # noqa: T201
             return 1
         try:
             readings = self._readings(outcome.response)
@@ -57,7 +57,7 @@ class Task:
 def read_task(arguments: Sequence[str] | None = None) -> Task:
     """Parse the arguments of the command line."""
     parser = ArgumentParser(description="Read the analog inputs of a module.")
-    parser.add_argument("port", help="the serial port, or any URL that pyserial knows")
+    parser.add_argument("port", help="the serial port, or any URL that pyserial supports")
     parser.add_argument("--model", type=Model.find, required=True)
     parser.add_argument("--address", type=lambda text: int(text, 16), default=0x01, help="in hex; 01 unless given")
     types, rates = TypeCode.__members__, {str(rate.bits_per_second): rate for rate in BaudRate}

@@ -36,7 +36,7 @@ FILTER_BIT, FAST_MODE_BIT = 0x80, 0x20
 def _check_channel(channel: int, profile: Profile, section: str) -> None:
     """Raise `EncodeError` for a channel that the module does not have, or cannot set individually."""
     if channel and not profile.individually_configurable:
-        raise EncodeError("channel", channel, f"0..0: {profile.model.value}", section)
+        raise EncodeError("channel", channel, f"0, which means all channels, on {profile.model.value}", section)
     profile.check_channel(channel, section)
 
 
@@ -271,7 +271,7 @@ class SetMiscellaneousSettings(Request[MiscellaneousSettingsResult]):
         bits = FILTER_BIT * profile.has_filter | FAST_MODE_BIT * profile.model.fast_mode
         if self.settings & ~bits:
             raise EncodeError(
-                "settings", f"{self.settings:02X}", f"only bits of {bits:02X}h: {profile.model.value}", self.section
+                "settings", f"{self.settings:02X}", f"only bits of {bits:02X}h on {profile.model.value}", self.section
             )
 
 

@@ -149,7 +149,7 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
         check_type("request", request, Request)  # type: ignore[unreachable] # with types
     body = unseal(frame)
     if len(body) < _SHORTEST_RESPONSE:
-        raise DecodeError(Fault.LENGTH, frame, len(body), allowed="5 bytes at least", section="3")
+        raise DecodeError(Fault.LENGTH, frame, len(body), allowed="at least 5 bytes", section="3")
     if body[0] != request.address or body[0] == BROADCAST:
         allowed = f"{request.address:02X}" if is_answered(request) else "no response to a broadcast"
         raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed=allowed, section=request.section)
@@ -214,7 +214,7 @@ _WITH_RESERVED_BITS = (ReadChannelMask.sub_function, ReadMiscellaneousSettings.s
 
 
 def _count_error(frame: bytes, count: int, section: str) -> DecodeError:
-    return DecodeError(Fault.COUNT, frame, 2, field="bytes", allowed=f"{count}, as asked for", section=section)
+    return DecodeError(Fault.COUNT, frame, 2, field="bytes", allowed=f"{count}, as requested", section=section)
 
 
 def _check_echo(request: Request[Any], body: bytes, frame: bytes) -> None:
@@ -228,7 +228,7 @@ def _check_echo(request: Request[Any], body: bytes, frame: bytes) -> None:
             raise DecodeError(Fault.ECHO, frame, at, allowed=said.hex(" "), section=request.section)
 
 
-# --- what a driver has to plan for ------------------------------------------------------------------------------------
+# --- timing and lengths -----------------------------------------------------------------------------------------------
 
 _EXCEPTION = len("AFE")
 _CRC = len("CC")

@@ -46,7 +46,7 @@ def offset_in_celsius(channel: int, offset: int) -> float:
 def check_offset_channel(sent: Message, channel: int, profile: Profile) -> None:
     """Raise `EncodeError` for a number that is neither the module nor one of its channels."""
     if channel and not 0 <= channel - FIRST_CHANNEL < profile.channels:
-        allowed = f"00, 80..{FIRST_CHANNEL + profile.channels - 1:02X}: {profile.model.value}"
+        allowed = f"00, 80..{FIRST_CHANNEL + profile.channels - 1:02X} on {profile.model.value}"
         raise EncodeError("channel", f"{channel:02X}", allowed, sent.section)
 
 

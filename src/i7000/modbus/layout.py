@@ -11,34 +11,34 @@ Laws: the constructor accepts exactly the values that a field's `Item` accepts; 
 >>> from i7000 import modbus
 >>> print(modbus.SetTypeCode.layout.source)
 def construct(self, address, channel, type_code):
-if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
-    refuse('address', address)
-if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
-    refuse('channel', channel)
-if not accepts_type_code(type_code):
-    refuse('type_code', type_code)
-set_address(self, address)
-set_channel(self, channel)
-set_type_code(self, type_code)
+    if not (address.__class__ is int and 0 <= address <= 247) and not accepts_address(address):
+        refuse('address', address)
+    if not (channel.__class__ is int and 0 <= channel <= 255) and not accepts_channel(channel):
+        refuse('channel', channel)
+    if not accepts_type_code(type_code):
+        refuse('type_code', type_code)
+    set_address(self, address)
+    set_channel(self, channel)
+    set_type_code(self, type_code)
 <BLANKLINE>
 def encode(m, p):
-return pack(m.address, 70, 8, 0, m.channel, m.type_code)
+    return pack(m.address, 70, 8, 0, m.channel, m.type_code)
 <BLANKLINE>
 def decode(b, p):
-if len(b) != 6:
-    fail(b, Fault.LENGTH, min(len(b), 6), '', 'address and PDU of 6 bytes')
-address, literal_1, literal_2, literal_3, channel, type_code, = unpack(b)
-if literal_3 != 0:
-    fail(b, Fault.RESERVED, 3, '', '00')
-try:
-    type_code = read_type_code(type_code)
-except KeyError:
-    fail(b, Fault.VALUE, 5, 'type_code', item_type_code.allowed)
-m = new(message)
-set_address(m, address)
-set_channel(m, channel)
-set_type_code(m, type_code)
-return m
+    if len(b) != 6:
+        fail(b, Fault.LENGTH, min(len(b), 6), '', 'address and PDU of 6 bytes')
+    address, literal_1, literal_2, literal_3, channel, type_code, = unpack(b)
+    if literal_3 != 0:
+        fail(b, Fault.RESERVED, 3, '', '00')
+    try:
+        type_code = read_type_code(type_code)
+    except KeyError:
+        fail(b, Fault.VALUE, 5, 'type_code', item_type_code.allowed)
+    m = new(message)
+    set_address(m, address)
+    set_channel(m, channel)
+    set_type_code(m, type_code)
+    return m
 """
 
 import struct
@@ -153,7 +153,7 @@ class _Statement(NamedTuple):
     fixed: tuple[Token, ...]
     """The tokens before the one of variable length."""
     tail: Token
-    """The token of variable length; it has no form if there is none."""
+    """The token of variable length; without a form if there is no such token."""
     keywords: frozenset[str]
     """The keyword-only fields."""
 
@@ -180,10 +180,10 @@ def _mask_bytes(profile: Profile) -> int:
 
 def _pack_mask(mask: int, profile: Profile | None) -> bytes:
     if profile is None:
-        raise EncodeError("profile", None, "the module's, which the length of a mask depends on", "3.3.9")
+        raise EncodeError("profile", None, "the profile of the module, which determines the length of a mask", "3.3.9")
     length = _mask_bytes(profile)
     if mask >> 8 * length:
-        raise EncodeError("mask", f"{mask:X}", f"what {length} byte(s) hold: {profile.model.value}", "3.3.9")
+        raise EncodeError("mask", f"{mask:X}", f"{length} byte(s) on {profile.model.value}", "3.3.9")
     return mask.to_bytes(length, "big")
 
 
@@ -232,7 +232,7 @@ def _decoder(statement: _Statement, size: int) -> Iterator[str]:
     extra = " + mask_bytes(p)" if tail.form == "mask" else ""
     yield "def decode(b, p):"
     yield f"    if len(b) {'<' if tail.form in _BYTES else '!='} {size}{extra}:"
-    allowed = f"address and PDU of {size} bytes" + " and what follows" * bool(tail.form)
+    allowed = f"address and PDU of {size} bytes" + " and more" * bool(tail.form)
     yield f"        fail(b, Fault.LENGTH, min(len(b), {size}), '', {allowed!r})"
     yield f"    {', '.join(names)}, = unpack(b)"
     for name, at in zip(names, places, strict=True):

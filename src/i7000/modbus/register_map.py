@@ -98,7 +98,7 @@ class RegisterMap:
         ]
         if found:
             return next((row for row in found if row.area in (Area.DISCRETE_INPUT, Area.INPUT_REGISTER)), found[0])
-        names = ", ".join(sorted({row.name for row in self.rows})) or "it has none"
+        names = ", ".join(sorted({row.name for row in self.rows})) or "it has no address map"
         raise EncodeError("register", key, names, "3.4", f"{self.profile.name} has no register {shown(key)}")
 
     def read(self, address: int, key: str | int, *, channels: range | None = None) -> ReadItems:
@@ -111,7 +111,7 @@ class RegisterMap:
             raise EncodeError("register", row.name, "it can only be written", "3.4")
         first, count, _ = self._span(row, key, channels)
         if row.kind is Kind.READING and first + count > self.profile.channels:
-            allowed = f"a range within 0..{self.profile.channels - 1}, in this connecting mode"
+            allowed = f"a range within 0..{self.profile.channels - 1}, the channels of this connecting mode"
             raise EncodeError("channels", range(first, first + count), allowed, "3.4")
         width = row.kind.width
         request: ReadItems = _READERS[row.area](address, row.address + first * width, count * width)
@@ -179,8 +179,8 @@ class RegisterMap:
         for key in as_tuple("keys", keys):
             row, request = self.find(key), self.read(address, key)
             if wanted.setdefault(row.name, (row, request, key))[:2] != (row, request):
-                reason = f"{row.name} is asked for twice, and values go by name"
-                raise EncodeError("keys", key, "one row or channel of a name", "3.4", reason)
+                reason = f"{row.name} is requested twice, but values are returned by name"
+                raise EncodeError("keys", key, "each name once", "3.4", reason)
         requests: list[ReadItems] = []
         places = []
         for row, request, key in sorted(wanted.values(), key=lambda it: (it[0].area.value, it[1].start)):
@@ -203,7 +203,7 @@ class RegisterMap:
                 or not 0 <= channels.start < channels.stop <= most
             ):
                 several = f"a range within 0..{most - 1}"
-                allowed = several if most > 1 else f"none: {row.name} is not for single channels"
+                allowed = several if most > 1 else f"no channels: {row.name} is a single value"
                 raise EncodeError("channels", channels, allowed, "3.4")
             return channels.start, len(channels), False
         place = _place(key, None)
@@ -216,7 +216,7 @@ def _amount(count: int, first: int) -> str:
     """Return how many values are expected, and how to write fewer."""
     if count == 1:
         return "1 value"
-    return f"{count} values, one a channel; or channels=range({first}, {first + 1}) to write one"
+    return f"{count} values, one for each channel; or channels=range({first}, {first + 1}) to write one"
 
 
 def _place(key: str | int, area: Area | None) -> tuple[Area, int] | None:

@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any
 
 from i7000.arguments import as_tuple, check_int, check_type
-from i7000.errors import DecodeError, EncodeError, Fault
+from i7000.errors import DecodeError, EncodeError, Fault, shown
 from i7000.frozen import frozen
 from i7000.modbus.registers import Kind, Register, WordOrder
 from i7000.models import Firmware, Model
@@ -80,7 +80,8 @@ def words(values: Iterable[Reading], profile: Profile, *, channel: int = 0) -> t
         check_type("values", value, Reading)
     types = profile.type_codes[channel : channel + len(found)] if channel >= 0 else ()
     if len(types) != len(found):
-        raise EncodeError("channel", channel, f"channels whose types are known: {len(profile.type_codes)}", "3.5")
+        allowed = f"channels of known type; the profile has {len(profile.type_codes)} type codes"
+        raise EncodeError("channel", channel, allowed, "3.5")
     engineering = profile.modbus_data_format is ModbusDataFormat.ENGINEERING
     encode = encode_engineering_word if engineering else encode_word
     return tuple(encode(value, type_code) for value, type_code in zip(found, types, strict=True))
@@ -90,7 +91,7 @@ def _readings(values: tuple[int, ...], channel: int, profile: Profile) -> tuple[
     types = profile.type_codes[channel : channel + len(values)] if channel >= 0 else ()
     if len(types) != len(values):
         last = len(profile.type_codes) - 1
-        allowed = f"channels 0..{last} of the profile" if last >= 0 else "none: the profile knows no types"
+        allowed = f"channels 0..{last} of the profile" if last >= 0 else "a profile with type codes; this one has none"
         raise DecodeError(Fault.NUMBER, b"", field="type_codes", allowed=allowed, section="3.5")
     engineering = profile.modbus_data_format is ModbusDataFormat.ENGINEERING
     decode = decode_engineering_word if engineering else decode_word
@@ -125,7 +126,8 @@ def _check_items(name: str, items: tuple[int, ...], most: int) -> None:
     """Raise `DecodeError` for an invalid item: an int beyond its range; a bit may be a bool."""
     for at, item in enumerate(items):
         if not isinstance(item, int) or (isinstance(item, bool) and most > 1) or not 0 <= item <= most:
-            raise DecodeError(Fault.NUMBER, b"", field=name, allowed=f"0..{most}, item {at} is none", section="3.4")
+            allowed = f"0..{most}; item {at} is {shown(item)}"
+            raise DecodeError(Fault.NUMBER, b"", field=name, allowed=allowed, section="3.4")
 
 
 def _long(words: tuple[int, ...], *, big_endian: bool) -> int:
@@ -214,5 +216,5 @@ def _number_of(row: Register, value: Any) -> int | float:  # noqa: ANN401
         or number != number  # noqa: PLR0124 - NaN
         or abs(number) > 1 << 32
     ):
-        raise EncodeError(row.name, value, "a number, or what stands for it", "3.4")
+        raise EncodeError(row.name, value, "a number or a value of the row's type", "3.4")
     return number

@@ -314,7 +314,7 @@ class WriteMultipleRegisters(Request[MultipleRegistersWritten]):
         """Raise `EncodeError` for more registers than the module accepts at once."""
         count = len(self.values)
         if profile.model.series == "7019" and count > _MOST_WRITTEN_TO_7019:
-            allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write: {profile.model.value}"
+            allowed = f"1..{_MOST_WRITTEN_TO_7019} registers in one write on {profile.model.value}"
             raise EncodeError("count", count, allowed, self.section)
 
 

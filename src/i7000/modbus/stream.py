@@ -183,7 +183,7 @@ def drop_echo(received: bytes, sent: bytes) -> bytes | None:
 def _scan(  # noqa: C901, PLR0912 - one loop
     buffer: bytes, side: Side, profile: Profile | None, request: Request[Any] | None, *, final: bool
 ) -> tuple[tuple[bytes | Noise, ...], bytes]:
-    rules = None  # They are asked for where the first three bytes do not tell enough.
+    rules = None  # Computed only if the first three bytes are not enough.
     addresses = range(side is Side.RESPONSES, LAST_ADDRESS + 1)
     if request is not None:
         addresses = range(request.address, request.address + 1)

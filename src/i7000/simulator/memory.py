@@ -226,7 +226,7 @@ def _parsed(data: bytes) -> Any:  # noqa: ANN401 - any JSON
         raise WrongError("is nested too deep", "four levels") from None
 
 
-def _object(pairs: list[tuple[str, Any]]) -> Any:  # noqa: ANN401 - a dict, or what stands for none
+def _object(pairs: list[tuple[str, Any]]) -> Any:  # noqa: ANN401 - a dict, or `Odd` for an invalid one
     found = dict(pairs)
     if len(found) < len(pairs):
         (name, _), *_ = Counter(name for name, _ in pairs).most_common(1)
@@ -234,7 +234,7 @@ def _object(pairs: list[tuple[str, Any]]) -> Any:  # noqa: ANN401 - a dict, or w
     return found
 
 
-def _integer(digits: str) -> Any:  # noqa: ANN401 - an int, or what stands for none
+def _integer(digits: str) -> Any:  # noqa: ANN401 - an int, or `Odd` for an invalid one
     return int(digits) if len(digits) <= _DIGITS else Odd(f"a number of {len(digits)} digits")
 
 

@@ -63,7 +63,7 @@ def _recorded(text: TextIO, units: Mapping[str, Unit]) -> dict[str, Recorded]:
             found[name].fromlist(column)
         _check_seconds(seconds, lines)
     if not seconds:
-        raise InvalidValueError("rows", 0, "one at least", "", f"line {line}: no rows follow")
+        raise InvalidValueError("rows", 0, "at least one", "", f"line {line}: no rows follow")
     return {name: Recorded(seconds, found[name], unit) for name, unit in units.items()}
 
 

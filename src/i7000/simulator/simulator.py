@@ -116,7 +116,7 @@ class Simulator:
         )
 
     def advance(self) -> None:
-        """Let the modules notice the time."""
+        """Move the time of the modules on to now."""
         now = self.now
         self.change(Bus(tuple(advance(module, signals, now) for module, signals in self.modules())))
 

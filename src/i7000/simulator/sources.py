@@ -202,7 +202,7 @@ class Recorded:
 
     def __attrs_post_init__(self) -> None:
         if not self.seconds or len(self.seconds) != len(self.values):
-            raise InvalidValueError("values", self.values, "as many as seconds, one at least", "")
+            raise InvalidValueError("values", self.values, "as many as seconds, and at least one", "")
         if not (self.seconds[0] >= 0 and self.seconds[-1] < inf):
             raise InvalidValueError("seconds", self.seconds, "0 or more", "")
         if not all(map(lt, self.seconds, islice(self.seconds, 1, None))):

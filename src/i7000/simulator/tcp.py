@@ -159,7 +159,7 @@ async def _addresses(host: str, port: int) -> list[_Address]:
             name, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )
     except socket.gaierror as error:
-        raise OSError(f"{host!r} is no host: {error.strerror}") from None
+        raise OSError(f"{host!r} is not a host: {error.strerror}") from None
     except ValueError:
         raise OSError(f"{host!r} cannot be the name of a host") from None
     addresses = dict.fromkeys((family, address) for family, *_, address in found)

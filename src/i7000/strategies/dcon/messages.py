@@ -101,7 +101,7 @@ def responses(command: Command[R], profile: Profile) -> SearchStrategy[R | Refus
     """Make responses to `command` that `i7000.dcon.encode` accepts for `profile`."""
     repeated: dict[str, SearchStrategy[Any]] = {"address": st.just(command.answering_address)}
     if isinstance(command, ReadConfiguration) and command.address == 0:
-        repeated["address"] = addresses()  # asked in INIT mode, told the stored one
+        repeated["address"] = addresses()  # in INIT mode the response has the stored address
     if hasattr(command, "channel"):
         repeated["channel"] = st.just(command.channel)
     if isinstance(command, ReadAnalogInput):
