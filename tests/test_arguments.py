@@ -38,7 +38,8 @@ OTHERS: tuple[Any, ...] = (
 LIKE_BYTES = (b"", b"$012\r", bytearray(b"$012\r"), memoryview(b"$012\r"), memoryview(b"1234")[::2])
 CHECKED_BY_TYPE = (
     bytes, bool, float, Profile, dcon.Message, modbus.Message, modbus.Side, host.Bus, device.State, device.Signals,
-    device.Eeprom, device.Ear, device.Uart, dissect.Known, dissect.Knowledge, dissect.Line, dissect.Module, dissect.Fact,
+    device.Eeprom, device.Ear, device.Uart, dissect.Fact, dissect.Known, dissect.Knowledge, dissect.Line,
+    dissect.Module,
 )  # fmt: skip
 
 each_call = each("call", [pytest.param(call, id=call.name) for call in CALLS])

@@ -7,6 +7,7 @@ from i7000.dissect import Known, hear_frame
 from tests.dissect.hearing import last_heard, line_of
 
 I_7018, I_7019R = Known(Model.I_7018), Known(Model.I_7019R, types=(TypeCode.K,))
+ONLY_RTU = ": these modules speak RTU"
 SIX = "+0025.1+0025.3+0024.9+0025.9-0003.2+0101.7"
 
 
@@ -23,12 +24,11 @@ def hexed(digits: str) -> bytes:
         ("01 04 00 00 00 01", "no CRC? ReadInputRegisters without it, which would be 31 CA"),
         (
             "00 07 00 00 00 06 01 04 00 00 00 08",
-            "a Modbus TCP header (transaction 7, 6 bytes follow): these modules speak RTU; "
-            "the rest is ReadInputRegisters",
+            f"a Modbus TCP header (transaction 7, 6 bytes follow){ONLY_RTU}; the rest is ReadInputRegisters",
         ),
         (
             "00 07 00 00 00 04 01 FF 00 00",
-            "a Modbus TCP header (transaction 7, 4 bytes follow): these modules speak RTU",
+            f"a Modbus TCP header (transaction 7, 4 bytes follow){ONLY_RTU}",
         ),
         ("23 30 31 0D", "the shape of a DCON frame"),
         (

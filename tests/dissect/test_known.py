@@ -84,7 +84,8 @@ def test_types_of_some_channels_leave_the_default_to_the_others() -> None:
 
     assert known.partial
     assert known.default is not None
-    assert known.default.type_codes == (V_10_OF_7019 := known.default.type_codes[0], K, *[V_10_OF_7019] * 6)
+    first, second, *others = known.default.type_codes
+    assert (second, others) == (K, [first] * 6)
 
 
 def test_types_of_some_channels_of_a_model_without_default_types_are_left_open() -> None:

@@ -30,7 +30,7 @@ class Missing(Enum):
 
     NOTHING = "no frame in this line"
     REPEAT = "a frame that was there already, and was not on the wire again"
-    DAMAGE = "a file that cannot be read on"
+    DAMAGE = "what the file has not, or has no more"
 
 
 class Read(NamedTuple):
@@ -107,19 +107,39 @@ def of_capture(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol |
     line = Line(knowledge, protocol)
     before: Packet | None = None
     for packet in packets(data):
+        if before is not None and (isinstance(packet, Damage) or _is_apart(before, packet)):
+            line, found = flush(line, f"packet {before.number}", sent=before.outbound)
+            yield from (_frame(heard, before.number, before) for heard in found)
         if isinstance(packet, Damage):
             line = evolve(line, count=line.count + 1)
             at = before.number if before else 0
             yield Read(line.count, at, at, f"byte {packet.offset}", None, None, Missing.DAMAGE, packet.reason)
             continue
-        if before is not None and _is_apart(before, packet):
-            line, found = flush(line, f"packet {before.number}", sent=before.outbound)
-            yield from (_frame(heard, before.number, before) for heard in found)
+        for note in _lost(packet):
+            line = evolve(line, count=line.count + 1)
+            yield Read(line.count, packet.number, packet.number, "", _utc(packet), None, Missing.DAMAGE, note)
         line, found = hear(line, packet.wire, f"packet {packet.number}", sent=packet.outbound)
         yield from (_frame(heard, packet.number, packet) for heard in found)
         before = packet
-    line, found = flush(line, sent=before.outbound if before else None)
-    yield from (_frame(heard, before.number if before else 0, before) for heard in found)
+    if before is not None:
+        line, found = flush(line, f"packet {before.number}", sent=before.outbound)
+        yield from (_frame(heard, before.number, before) for heard in found)
+
+
+def _lost(packet: Packet) -> Iterator[str]:
+    """Yield what of a packet is not in the file."""
+    if packet.note:
+        yield packet.note
+    if packet.missing:
+        yield f"{packet.missing} bytes of the packet were not captured"
+
+
+def _utc(packet: Packet) -> str | None:
+    """Return the time of a packet; the seconds since 1970 where that is no date."""
+    try:
+        return None if packet.time is None else datetime.fromtimestamp(packet.time, UTC).isoformat()
+    except (ValueError, OverflowError, OSError):
+        return f"{packet.time} s"
 
 
 def _is_apart(before: Packet, packet: Packet) -> bool:
@@ -134,7 +154,4 @@ def _frame(heard: Heard, line: int, packet: Packet | None) -> Read:
     text = wire.hex(" ").upper()
     if heard.protocol is Protocol.DCON:
         text = wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
-    time = None
-    if packet is not None and packet.time is not None:
-        time = datetime.fromtimestamp(packet.time, UTC).isoformat()
-    return Read(heard.place.number, line, line, text, time, heard)
+    return Read(heard.place.number, line, line, text, packet and _utc(packet), heard)

@@ -44,7 +44,7 @@ _READING = _object(
 )
 _REGISTER = _object(
     {
-        "number": {"type": "string", "pattern": "^[0-9]{5}$", "description": "The number of the manual."},
+        "number": {"type": "string", "pattern": "^[0-9]{5,6}$", "description": "The number of the manual."},
         "name": _or_null("string", description="Null: the map does not have it, or the model is unknown."),
         "channel": _or_null("integer", minimum=0),
         "value": _ANYTHING | {"description": "In units; null: the message has no values."},

@@ -12,7 +12,7 @@ from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
 
-__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "following"]
+__all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests", "updated"]
 
 
 class Place(NamedTuple):
@@ -134,8 +134,8 @@ _KINDS: dict[str, tuple[type, ...]] = {
 """What each field of `Line` can be."""
 
 
-def following(line: Line, number: int, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
-    """Return a line after a frame of this number; its fields are not looked at again, as `evolve` would."""
-    after = object.__new__(Line)
-    object.__setattr__(after, "__dict__", {**line.__dict__, "count": number, **changes})
-    return after
+def updated(line: Line, **changes: Any) -> Line:  # noqa: ANN401 - fields of `Line`
+    """Return a line of which more was heard; its fields are not looked at again, as `evolve` would."""
+    copy = object.__new__(Line)
+    object.__setattr__(copy, "__dict__", {**line.__dict__, **changes})
+    return copy

@@ -231,20 +231,15 @@ def _unchanging(mapping: Mapping[Any, Any]) -> Mapping[Any, Any]:
     return MappingProxyType(dict(mapping)) if isinstance(mapping, Mapping) else mapping
 
 
-def _items(mapping: Mapping[Any, Any]) -> frozenset[tuple[Any, Any]]:
-    """Return what a mapping is compared and hashed by."""
-    return frozenset(mapping.items())
-
-
-@frozen(cache_hash=True)
+@frozen(eq=False)
 class Module:
-    """What is known of one module.
+    """What is known of one module; it is compared by identity, as what was read with it is remembered.
 
     Errors: `EncodeError` for a combination that no module has, `InvalidValueError` for fields of other types.
     """
 
     given: Known = Known()
-    facts: Mapping[str, Fact] = field(factory=dict, converter=_unchanging, eq=_items)
+    facts: Mapping[str, Fact] = field(factory=dict, converter=_unchanging)
     """What was learned, by the name of the fact."""
 
     def __attrs_post_init__(self) -> None:
@@ -288,7 +283,7 @@ class Module:
         return Module(self.given, {name: fact for name, fact in self.facts.items() if name not in dropped})
 
 
-@frozen
+@frozen(eq=False)
 class Knowledge:
     """What is known of all modules on a line.
 
@@ -297,7 +292,7 @@ class Knowledge:
 
     others: Module = field(factory=Module)
     """What is known of modules that are not in `modules`."""
-    modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging, eq=_items)
+    modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging)
     """Modules by address."""
 
     def __attrs_post_init__(self) -> None:

@@ -8,7 +8,7 @@ those before it. No bytes raise.
 """
 
 from i7000.arguments import as_bytes, check_type
-from i7000.dissect.heard import Heard, Line, Place, following
+from i7000.dissect.heard import Heard, Line, Place, updated
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_modbus
 from i7000.dissect.stream import split
@@ -53,10 +53,10 @@ def _hear_split(
             line, heard = _hear(line, wire, protocol, _next(line, where), sent=sent)
         else:
             place = _next(line, where)
-            line = following(line, place.number)
+            line = updated(line, count=place.number)
             heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
         found.append(heard)
-    return following(line, line.count, rest=rest), tuple(found)
+    return updated(line, rest=rest), tuple(found)
 
 
 def hear_frame(
@@ -72,11 +72,13 @@ def hear_frame(
     >>> heard.answers.where, heard.meanings[0].fields[1].text, line.knowledge.of(0x01).known.types
     ('frame 1', '0F, thermocouple K, -270..1372 degC', (<TypeCode.K: 15>,))
     """
-    check_type("line", line, Line)
-    check_type("protocol", protocol, Protocol)
+    if line.__class__ is not Line:  # in place, as this is done for every frame
+        raise ArgumentError("line", line, "Line")
+    if protocol.__class__ is not Protocol:
+        raise ArgumentError("protocol", protocol, "Protocol")
     if place is None:
         place = _next(line)
-    elif not isinstance(place, Place) or not isinstance(place.number, int):
+    elif place.__class__ is not Place or place.number.__class__ is not int:
         raise ArgumentError("place", place, "Place, with a number")
     check_type("sent", sent, bool, optional=True)
     return _hear(line, as_bytes("wire", wire), protocol, place, sent=sent)
@@ -85,7 +87,7 @@ def hear_frame(
 def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place, *, sent: bool | None) -> tuple[Line, Heard]:
     if not wire:
         error = DecodeError(Fault.LENGTH, wire, allowed="a frame")
-        return following(line, place.number), Heard(place, wire, protocol, error=error)
+        return updated(line, count=place.number), Heard(place, wire, protocol, error=error)
     return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place, sent)
 
 

@@ -10,7 +10,7 @@ from i7000.dcon.frame import LONGEST_FRAME
 from i7000.dissect.causes import address_notes, dcon_causes
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, following
+from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, updated
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -48,7 +48,7 @@ def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         notes = (*notes, f"the same as {same_as.where}: an echo, or asked again")
     asked = Asked(place, wire, address) if read.error is None else None
     commands = Commands(asked, unanswered, None, answer)
-    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+    return updated(line, count=place.number, commands=commands), Heard(
         place, wire, Protocol.DCON, Direction.COMMAND, address, read.meanings, None, same_as, notes, read.error, (),
         read.contradictions,
     )  # fmt: skip
@@ -86,7 +86,7 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
         knowledge, wrong = learn(knowledge, sender, read.meanings[0], place.where, read.shown)
         if wrong:
             contradictions = tuple(dict.fromkeys((*contradictions, *wrong)))
-    return following(line, place.number, knowledge=knowledge, commands=commands), Heard(
+    return updated(line, knowledge=knowledge, count=place.number, commands=commands), Heard(
         place, wire, Protocol.DCON, Direction.RESPONSE, address, read.meanings, answers, None, notes, read.error,
         read.candidates, contradictions,
     )  # fmt: skip

@@ -7,7 +7,7 @@ from attrs import evolve
 
 from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
-from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, following
+from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, updated
 from i7000.dissect.known import Known
 from i7000.dissect.learn import learn, with_facts
 from i7000.dissect.meaning import Meaning
@@ -47,7 +47,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tup
     if len(wire) > modbus.LONGEST_FRAME:
         error: DecodeError | None = reader.request.__wrapped__(wire).error  # it is too long to be remembered
         causes = tuple(modbus_causes(wire, reader))
-        line = following(line, place.number, requests=Requests(None, in_step=False, echoes=echoes))
+        line = updated(line, count=place.number, requests=Requests(None, in_step=False, echoes=echoes))
         return line, Heard(place, wire, Protocol.MODBUS_RTU, address=address, error=error, notes=causes)
     response = _NOTHING
     if asked is not None and asked.meaning is not None and asked.address != modbus.BROADCAST and not sent:
@@ -88,7 +88,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tup
     meanings: tuple[Meaning, ...] = ()
     if meaning is not None:
         meanings, notes = (with_facts(meaning, module),), meaning.notes + notes
-    return following(line, place.number, knowledge=knowledge, requests=requests), Heard(
+    return updated(line, knowledge=knowledge, count=place.number, requests=requests), Heard(
         place, wire, Protocol.MODBUS_RTU, direction, address, meanings, answers, same_as, notes, error, candidates,
         contradictions,
     )  # fmt: skip
