@@ -1,6 +1,6 @@
-"""The likely causes of frames that cannot be decoded: a sentence for each of the classic mistakes.
+"""The likely causes of frames that cannot be decoded: a sentence for each classic mistake.
 
-Laws: a cause is a guess that was tried: what it says the frame would be without the mistake, a codec has decoded.
+Laws: a cause is tried before it is named: a codec has decoded the frame without the mistake.
 """
 
 from collections.abc import Iterator
@@ -21,11 +21,11 @@ __all__ = ["address_notes", "dcon_causes", "modbus_causes", "register_notes"]
 
 _BLANK_FIELD = " " * 7
 _MOST_STRIPPED = 20
-"""Channels whose blanks a log can have stripped."""
+"""The most channels whose blanks a log may have stripped."""
 
 
 def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | None) -> Iterator[str]:
-    """Yield what is likely to be the cause that a DCON frame cannot be read."""
+    """Yield the likely causes why a DCON frame cannot be decoded."""
     body = wire.rstrip(b"\r\n")
     if wire.endswith(b"\n"):
         yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
@@ -78,7 +78,7 @@ _TEXT = frozenset(b"\t\r\n") | frozenset(range(0x20, 0x7F))
 
 
 def _is_noise(wire: bytes) -> bool:
-    """Return whether most of the bytes are none that DCON has."""
+    """Return whether most of the bytes cannot occur in DCON."""
     return sum(byte not in _TEXT for byte in wire) * 2 > len(wire)
 
 
@@ -86,7 +86,7 @@ def _is_noise(wire: bytes) -> bool:
 
 
 def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
-    """Yield what is likely to be the cause that a Modbus RTU frame cannot be read."""
+    """Yield the likely causes why a Modbus RTU frame cannot be decoded."""
     with suppress(UnicodeDecodeError):
         if is_shaped(wire.rstrip(b"\r\n").decode("ascii")):
             yield "the shape of a DCON frame"
@@ -143,7 +143,7 @@ _NUMBERS_A_KIND = 9999
 
 
 def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
-    """Yield that an address that no known module has is likely to be one in decimal, written as hex."""
+    """Yield a note if an unknown address looks like a known one that was written in decimal."""
     if address is None or not knowledge.modules or address in knowledge.modules:
         return
     for other in knowledge.modules:
@@ -153,7 +153,7 @@ def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
 
 
 def register_notes(meaning: Meaning) -> Iterator[str]:
-    """Yield that an address is likely to be a number of the manual."""
+    """Yield a note if an address looks like a number of the manual."""
     message: Message = meaning.command or meaning.message
     if not isinstance(message, modbus.Request):
         return

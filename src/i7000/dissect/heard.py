@@ -1,4 +1,4 @@
-"""What was heard of a line so far, and what was made of each frame."""
+"""The state of the listener, and what it found out about each frame."""
 
 from enum import StrEnum
 from typing import NamedTuple
@@ -14,16 +14,16 @@ __all__ = ["Asked", "Direction", "Heard", "Line", "Place"]
 
 
 class Place(NamedTuple):
-    """Where a frame stands."""
+    """The place of a frame in the traffic."""
 
     number: int
-    """Frames are counted from 1, unless the caller has other numbers."""
+    """The number of the frame, from 1, unless the caller numbers them differently."""
     where: str
-    """In words, for notes on other frames: ``frame 3``."""
+    """The place in words, for notes on other frames: ``frame 3``."""
 
 
 class Direction(StrEnum):
-    """Who sent a frame."""
+    """The direction of a frame: who sent it."""
 
     COMMAND = "command"
     """The host, by DCON."""
@@ -32,12 +32,12 @@ class Direction(StrEnum):
     RESPONSE = "response"
     """A module."""
     ECHO = "echo"
-    """The adapter of the host, which hears what it sends."""
+    """The host's own adapter, which receives what it sends."""
 
 
 @frozen(eq=False)
 class Heard:
-    """What was made of a frame, or of bytes that are none."""
+    """A frame, or bytes that are not one, with their meanings or the error."""
 
     place: Place
     wire: bytes
@@ -45,18 +45,18 @@ class Heard:
     direction: Direction | None = None
     address: int | None = None
     meanings: tuple[Meaning, ...] = ()
-    """What it means; several if it could be any of them."""
+    """Its possible meanings; more than one if the frame is ambiguous."""
     answers: Place | None = None
     """The command or request that it answers."""
     same_as: Place | None = None
     """The frame of which it is an echo."""
     notes: tuple[str, ...] = ()
     error: DecodeError | None = None
-    """What is wrong with it."""
+    """Why it cannot be decoded; None if it can."""
     candidates: tuple[Meaning, ...] = ()
-    """What a frame would mean by itself that is wrong where it stands."""
+    """What a frame that is wrong in its place would mean elsewhere."""
     contradictions: tuple[str, ...] = ()
-    """What of it does not fit what was given or learned before."""
+    """How it contradicts what was given or learned before."""
 
     @property
     def understood(self) -> bool:
@@ -66,38 +66,38 @@ class Heard:
 
 @frozen(eq=False)
 class Asked:
-    """The command or request before."""
+    """The last command or request."""
 
     place: Place
     wire: bytes
     address: int | None
     meaning: Meaning | None = None
-    """What it means by Modbus."""
+    """Its meaning, if it is a Modbus request."""
     echoed: bool = False
 
 
 @frozen
 class Line:
-    """Both sides of a line, as far as they were heard."""
+    """The state of the listener: what was heard on a line so far."""
 
     knowledge: Knowledge = field(factory=Knowledge)
     protocol: Protocol | None = None
-    """The only protocol on the line; None: frames of both can come."""
+    """The only protocol on the line; None if both are possible."""
     rest: bytes = b""
     """Bytes that can still become a frame."""
     count: int = 0
     """The number of the last frame."""
     asked: Asked | None = None
-    """The command by DCON that has no answer yet."""
+    """The last DCON command, if it has no response yet."""
     unanswered: Asked | None = None
-    """The command by DCON before that, if it has none either."""
+    """The DCON command before `asked`, if it has no response either."""
     requested: Asked | None = None
-    """The request by Modbus that has no answer yet."""
+    """The last Modbus request, if it has no response yet."""
     answered: Asked | None = None
-    """The command by DCON that was answered last, until the next one."""
+    """The DCON command that was answered last, until the next command."""
     answer: bytes = b""
-    """The response by DCON that was heard last."""
+    """The last DCON response."""
     in_step: bool = False
-    """Whether a request is what comes next by Modbus."""
+    """Whether the next Modbus frame must be a request."""
     echoes: bool = False
-    """Whether the adapter hears what it sends."""
+    """Whether the host's adapter echoes what it sends."""

@@ -1,10 +1,10 @@
-"""What is known of the modules on a line, each fact with where it comes from.
+"""What is known about the modules on a line, each fact with its origin.
 
 A `Known` is what is known of one module; it stands for all profiles that fit. A `Module` is what the caller gave, and
 what the traffic showed; `Knowledge` is all modules.
 
-Laws: what is given beats what was learned, which beats the factory default. A setting that the traffic shows being
-changed beats what was given. Facts never make a combination that no module has.
+Laws: given beats learned, and learned beats the factory default. A setting that the traffic shows being changed beats
+what was given. Facts never make a combination that no module has.
 """
 
 from collections.abc import Iterable, Mapping
@@ -27,12 +27,12 @@ __all__ = ["Fact", "Knowledge", "Known", "Module", "Origin", "fact_words"]
 
 @frozen(cache_hash=True)
 class Known:
-    """What is known of a module; None: unknown."""
+    """The known properties of a module; None if unknown."""
 
     model: Model | None = None
     firmware: Firmware | None = None
     types: tuple[TypeCode | None, ...] | None = None
-    """One for all channels, or one for each. None in it: unknown, as is that of every channel after the last."""
+    """One type for all channels, or one for each. None in it, and a missing one at the end, are unknown."""
     data_format: DataFormat | None = None
     checksum: bool | None = None
     single_ended: bool | None = None
@@ -42,7 +42,7 @@ class Known:
 
     @classmethod
     def of(cls, profile: Profile) -> "Known":
-        """Return everything that a profile says."""
+        """Return the knowledge that a profile has."""
         return cls(
             profile.model,
             profile.firmware,
@@ -55,7 +55,7 @@ class Known:
 
     @property
     def partial(self) -> bool:
-        """Whether the types of some channels only are known."""
+        """Whether only some channels have a known type."""
         return self.types is not None and None in self.types
 
     @cached_property
@@ -154,7 +154,7 @@ def _either(known: bool | None) -> tuple[bool, ...]:  # noqa: FBT001 - it is the
 
 
 class Origin(StrEnum):
-    """Where a fact comes from."""
+    """The origin of a fact."""
 
     GIVEN = "given"
     """The caller said so."""
@@ -166,14 +166,14 @@ class Origin(StrEnum):
 
 @frozen
 class Fact:
-    """One thing that is known of a module."""
+    """A fact about a module."""
 
     name: str
     """An attribute of `Known`, or ``name``, ``mask``, ``line_settings``, ``protocol``."""
     value: Any
     origin: Origin = Origin.LEARNED
     where: str = ""
-    """The frame that showed it, from which on it holds: ``frame 3``."""
+    """The frame that showed it, and from which on it holds: ``frame 3``."""
     changed: bool = False
     """Whether the frame accepted a change, so that what was given no longer holds."""
 
@@ -188,7 +188,7 @@ def _unchanging(mapping: Mapping[Any, Any]) -> Mapping[Any, Any]:
 
 @frozen(eq=False)
 class Module:
-    """What is known of one module."""
+    """The knowledge of one module: given and learned."""
 
     given: Known = Known()
     facts: Mapping[str, Fact] = field(factory=dict, converter=_unchanging)
@@ -196,7 +196,7 @@ class Module:
 
     @cached_property
     def known(self) -> Known:
-        """Everything together."""
+        """Given and learned facts together."""
         learned = {fact.name: fact.value for fact in self.learned}
         if "model" in learned or self.given.model:
             learned.pop("models", None)
@@ -210,7 +210,7 @@ class Module:
         )
 
     def gives(self, name: str) -> bool:
-        """Return whether the caller knows something."""
+        """Return whether a property was given."""
         return getattr(self.given, name, None) not in (None, ())
 
     def learn(self, fact: Fact) -> "Module":
@@ -230,24 +230,24 @@ class Module:
 
 @frozen(eq=False)
 class Knowledge:
-    """What is known of all modules on a line."""
+    """The knowledge of all modules on a line."""
 
     others: Module = field(factory=Module)
-    """What is known of modules that are not in `modules`."""
+    """The knowledge of every module that is not in `modules`."""
     modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging)
     """Modules by address."""
 
     @classmethod
     def given(cls, others: Known, by_address: Mapping[int, Known] = _NOTHING) -> "Knowledge":
-        """Return what the caller knows: of the modules at some addresses, and of those at any other."""
+        """Return knowledge that you give: of the modules at some addresses, and of all others."""
         return cls(Module(others), {address: Module(known) for address, known in by_address.items()})
 
     def of(self, address: int | None) -> Module:
-        """Return what is known of the module at an address; None: of any."""
+        """Return the knowledge of the module at an address; None for any address."""
         return self.others if address is None else self.modules.get(address, self.others)
 
     def put(self, address: int, module: Module) -> "Knowledge":
-        """Replace what is known of the module at an address."""
+        """Return knowledge with that of one module replaced."""
         return evolve(self, modules={**self.modules, address: module})
 
 

@@ -1,10 +1,10 @@
-"""The listener: bytes or frames of a line, one after the other -> what each of them means.
+"""The listener: bytes or frames of a line, one after the other -> their meanings.
 
-A `Line` is what was heard so far, and what is known of each module by that. `hear` takes bytes in any pieces,
-`hear_frame` a frame that stands by itself, as in a log.
+A `Line` is the state: what was heard so far, and what is known about each module from it. `hear` takes bytes in any
+pieces, `hear_frame` a single frame, as in a log.
 
-Laws: every byte that is heard is in exactly one `Heard`, or in `Line.rest`. A frame never changes what was said of
-those before it. No bytes raise.
+Laws: every byte is in exactly one `Heard`, or in `Line.rest`. A frame never changes the result of an earlier one. No
+bytes raise.
 """
 
 from attrs import evolve
@@ -21,9 +21,9 @@ __all__ = ["flush", "hear", "hear_frame"]
 
 
 def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
-    r"""Hear the next bytes of a stream, in any pieces; what can still become a frame is kept in `Line.rest`.
+    r"""Decode the next bytes of a stream; those that can still become a frame are kept in `Line.rest`.
 
-    Shape: `where` the bytes stand, for notes on later frames, which count them unless it is given.
+    Shape: bytes in any pieces; `where` is their place in words, for notes on later frames: ``frame 3`` unless given.
 
     >>> line, heard = hear(Line(protocol=Protocol.DCON), b"$012\r!01")
     >>> line, more = hear(line, b"0F0600\r")
@@ -34,7 +34,7 @@ def hear(line: Line, data: bytes, where: str | None = None) -> tuple[Line, tuple
 
 
 def flush(line: Line, where: str | None = None) -> tuple[Line, tuple[Heard, ...]]:
-    """Hear that nothing more comes for now: what is in `Line.rest` is a frame, or none."""
+    """Decode `Line.rest` at the end of the stream, or in a pause: nothing more belongs to it."""
     return _hear_split(line, line.rest, where, last=True)
 
 
@@ -53,9 +53,9 @@ def _hear_split(line: Line, data: bytes, where: str | None, *, last: bool) -> tu
 
 
 def hear_frame(line: Line, wire: bytes, protocol: Protocol, place: Place | None = None) -> tuple[Line, Heard]:
-    r"""Hear a frame, or bytes that stand where one should.
+    r"""Decode a single frame, or bytes in the place of one.
 
-    Shape: `place` of the frame; it has the next number if that is not given.
+    Shape: `place` of the frame; the next number unless given.
 
     >>> line, heard = hear_frame(Line(), b"$012\r", Protocol.DCON)
     >>> line, heard = hear_frame(line, b"!010F0600\r", Protocol.DCON)

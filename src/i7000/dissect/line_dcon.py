@@ -26,7 +26,7 @@ _REMEMBERED = 512
 
 
 def hear_dcon(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    """Hear a frame, which is a command or a response by its leading character."""
+    """Decode a frame after those before it; its leading character makes it a command or a response."""
     return (_hear_command if is_command(wire) else _hear_response)(line, wire, place)
 
 
@@ -92,7 +92,7 @@ def _answers(module: Module, wire: bytes, asked: Asked) -> bool:
 
 
 class _Read(NamedTuple):
-    """What a frame is by DCON, wherever it stands."""
+    """A DCON frame, wherever it stands."""
 
     meanings: tuple[Meaning, ...] = ()
     error: DecodeError | None = None
@@ -193,7 +193,7 @@ def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[str, ...]
 
 
 def _lacking(meaning: Meaning) -> str | None:
-    """Say that a message has a type that the model does not have."""
+    """Return a note if a message has a type that the model lacks."""
     code = getattr(meaning.message, "type_code", None)
     profiles = meaning.fit.profiles
     if code is None or code == MIXED or len(meaning.fit.models) != 1 or any(map(_supporting(code), profiles)):

@@ -20,7 +20,7 @@ __all__ = ["hear_modbus"]
 _READERS = 64
 """Combinations of what is known of a module, of which the readers are kept."""
 _ANOTHER = (Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION)
-"""Faults that say that something else was asked for."""
+"""Faults of a response to another request."""
 
 
 @lru_cache(maxsize=_READERS)
@@ -34,7 +34,7 @@ def _modbus_reader(known: Known) -> tuple[ModbusReader, tuple[str, ...]]:
 
 
 def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
-    """Hear a frame, which can be a request, a response or an echo.
+    """Decode a frame after those before it, as a request, a response or an echo.
 
     Special: what is the same as the request before it is its response where it can be, unless the line is known to
         echo; a line is known to echo when a request came twice that cannot be its own response.
@@ -82,7 +82,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
 
 
 def _doubt(alone: Meaning | None, fault: DecodeError | None, asked: Asked | None, *, in_step: bool) -> str | None:
-    """Say what else a request could be."""
+    """Return what else a request could be."""
     if alone and asked and fault and fault.fault not in _ANOTHER:
         return f"or a wrong response to {asked.place.where}: {fault}"
     if alone and not asked and not in_step:
