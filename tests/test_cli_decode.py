@@ -406,13 +406,13 @@ def test_lines_of_a_log_can_be_arguments(run: Run) -> None:
 def test_nothing_at_all_is_understood(run: Run) -> None:
     result = run("decode", stdin=b"")
 
-    assert (result.code, result.out, result.err) == (0, "", "i7000: there was nothing to decode\n")
+    assert (result.code, result.out, result.err) == (0, "", "i7000: nothing to decode: the input is empty\n")
 
 
 def test_a_log_without_a_frame_is_an_error_only_as_a_whole(run: Run) -> None:
     nothing, something = run("decode", "COM3 opened", "ready"), run("decode", "COM3 opened", "$012")
 
-    assert (nothing.code, nothing.err) == (1, "i7000: there is no frame in it\n")
+    assert (nothing.code, nothing.err) == (1, "i7000: no frame in the input\n")
     assert (something.code, something.err) == (0, "")
 
 

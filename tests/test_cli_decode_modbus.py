@@ -515,14 +515,14 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        ("ReadConfiguration address=1", 2, "ReadConfiguration is of the other protocol: --protocol dcon"),
+        ("ReadConfiguration address=1", 2, "ReadConfiguration is a message of the other protocol: add --protocol dcon"),
         ("ReadConfigurations address=1", 2, "there is no command or response 'ReadConfigurations'; did you mean "),
         ("ReadCoils address=1", 2, "ReadCoils needs start=... (0..65535), count=... (1..2000)"),
         ("SetChannelMask address=1 channels=1", 2, "give --model: 01 46 26 02 7B AC for M-7017, M-7017C, "),
         ("ModuleName address=1 name=7019Z", 2, "name: '7019Z' is not bytes in hex"),
-        ("ReadModuleName address=1 --model I-7018", 2, "I-7018 has no Modbus: M-7000 series only"),
+        ("ReadModuleName address=1 --model I-7018", 2, "I-7018 does not speak Modbus: M-7000 series only"),
         ("ReadModuleName address=1 --single-ended --type K", 2, "--single-ended cannot be given"),
-        ("ReadModuleName address=1 --checksum", 2, "--format and --checksum are of DCON"),
+        ("ReadModuleName address=1 --checksum", 2, "--format and --checksum are for DCON"),
         ("ReadCjcUpdate address=1 --model M-7018", 1, "M-7018 has no CJC update setting by Modbus"),
         ("ReadCoils address=1 start=65535 count=2", 1, "count cannot be 2"),
     ],
@@ -537,13 +537,19 @@ def test_what_is_not_written_is_said(run: Run, arguments: str, code: int, messag
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("encode ReadCoils address=1 start=0 count=1", "ReadCoils is of the other protocol: --protocol rtu"),
-        ("decode $012 --modbus-format hex --protocol dcon", "--modbus-format is of --protocol rtu; DCON has --format"),
-        ("decode 01 --protocol rtu --format hex", "--format and --checksum are of DCON"),
-        ("decode 01 --protocol rtu --model I-7018", "I-7018 has no Modbus"),
+        (
+            "encode ReadCoils address=1 start=0 count=1",
+            "ReadCoils is a message of the other protocol: add --protocol rtu",
+        ),
+        (
+            "decode $012 --modbus-format hex --protocol dcon",
+            "--modbus-format is for --protocol rtu; for DCON give --format",
+        ),
+        ("decode 01 --protocol rtu --format hex", "--format and --checksum are for DCON"),
+        ("decode 01 --protocol rtu --model I-7018", "I-7018 does not speak Modbus"),
         ("decode 01 --protocol ascii", "ascii"),
         ("registers", "model"),
-        ("registers --model I-7018", "I-7018 has no Modbus: M-7000 series only"),
+        ("registers --model I-7018", "I-7018 does not speak Modbus: M-7000 series only"),
     ],
 )
 def test_wrong_usage_is_said(run: Run, arguments: str, message: str) -> None:

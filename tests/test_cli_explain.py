@@ -106,12 +106,12 @@ def test_what_means_many_commands_lists_them(run: Run, name: str, count: int) ->
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("ReadConfig", "a function as 46 2A, a section; did you mean ReadConfiguration?\n"),
+        ("ReadConfig", "a function such as 46 2A, or a section such as 2.10; did you mean ReadConfiguration?\n"),
         ("ReadConfigurtion", "did you mean ReadConfiguration"),
         ("$AA8", "did you mean $AA8Ci?\n"),
-        ("2.99", "there is no command '2.99': give a name, a syntax as $AA2, a function as 46 2A, a section\n"),
+        ("2.99", "there is no command '2.99': give a name, a syntax such as $AA2, a function such as "),
         ("47", "there is no command '47'"),
-        ("Set", "there is no command 'Set': give a name, a syntax as $AA2, a function as 46 2A, a section"),
+        ("Set", "there is no command 'Set': give a name, a syntax such as $AA2, a function such as "),
         ("ReadCoils --protocol dcon", "there is no command 'ReadCoils'"),
         ("ReadCjcUpdate --model I-7018", "I-7018 has no ReadCjcUpdate\n"),
     ],
@@ -238,12 +238,12 @@ def test_an_explained_register_has_labelled_lines(run: Run, arguments: str, line
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("foo", "there is no register 'foo': give a name, a number as 40489, an address as 488\n"),
+        ("foo", "there is no register 'foo': give a name, a number such as 40489, or an address such as 488\n"),
         ("watchdog", "did you mean host_watchdog_enabled or host_watchdog_mode or "),
         ("host_watchdg_timeout", "did you mean host_watchdog_timeout or "),
         ("49999", "there is no register '49999'"),
         ("cjc_offset --model M-7017", "there is no register 'cjc_offset'"),
-        ("", "give --model to list its registers, or a register to be explained: i7000 registers 40489\n"),
+        ("", "give --model to list its registers, or a register to explain, such as i7000 registers 40489\n"),
     ],
 )
 def test_a_register_that_there_is_not_is_refused_with_what_is_near(run: Run, arguments: str, message: str) -> None:
@@ -294,5 +294,8 @@ def test_an_erratum_is_explained(run: Run, name: str, line: str) -> None:
 def test_an_erratum_that_there_is_not_is_refused(run: Run) -> None:
     result = run("errata", "E999")
 
-    assert result.err == "i7000: there is no erratum 'E999': give an id as E24, a section as 2.11, or a command\n"
+    assert (
+        result.err
+        == "i7000: there is no erratum 'E999': give an id such as E24, a section such as 2.11, or a command\n"
+    )
     assert result.code == 2

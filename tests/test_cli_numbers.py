@@ -22,7 +22,7 @@ def test_a_number_reads_the_same_in_each_spelling(number: int) -> None:
     [
         ("1A", "'1A' has hex digits: write 0x1A or 1Ah"),
         ("ff", "'ff' has hex digits: write 0xff or ffh"),
-        ("", "'' is not a number: decimal, or hex as 0x1A or 1Ah"),
+        ("", "'' is not a number: write it in decimal, or in hex as 0x1A or 1Ah"),
         ("h", "'h' is not a number"),
         ("0x", "'0x' is not a number"),
         ("0x1Ah", "'0x1Ah' is not a number"),

@@ -42,7 +42,7 @@ def test_modules_that_would_answer_at_once_are_told(run: Run) -> None:
         return simulated(run, *models, "--tcp", "0").err
 
     assert told("I-7018", "I-7018,address=01") == (
-        "i7000: several modules have address 01 and speak DCON: their answers collide\n"
+        "i7000: several modules have address 01 and speak DCON: their responses collide\n"
     )
     assert told("I-7018", "M-7018,address=01") == ""
 
@@ -140,7 +140,7 @@ def test_the_limits_that_the_help_names_are_those_of_the_simulator(run: Run) -> 
     words = " ".join(run("simulate", "--help").out.replace("│", " ").split())
 
     assert f"serve {MOST_CONNECTIONS} hosts each at a time" in words
-    assert f"{MOST_LATE_PIECES} pieces, or {MOST_LATE_BYTES} bytes, of late answers" in words
+    assert f"{MOST_LATE_PIECES} pieces, or {MOST_LATE_BYTES} bytes, of late responses" in words
 
 
 def test_faults_are_those_of_the_seed(run: Run) -> None:
@@ -160,7 +160,7 @@ def test_the_help_says_what_a_recording_is_and_how_long_it_may_be(run: Run) -> N
     told = " ".join(run("simulate", "--help").out.replace("│", "").split())
 
     assert all(name in told for name in ("seconds", "cold_junction", "open wire"))
-    assert f"At most {MOST_ROWS:,} rows and {MOST_BYTES // 10**6} MB." in told
+    assert f"at most {MOST_ROWS:,} rows and {MOST_BYTES // 10**6} MB." in told
 
 
 def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
@@ -187,10 +187,10 @@ def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ((), "no modules: give --model, once for each"),
+        ((), "no modules: give --model once for each, such as --model M-7019R"),
         (("--model", "M-7019X"), "M-7019X"),
         (("--model", KELVIN, "--signal", "nonsense"), "nonsense"),
-        (("--model", KELVIN, "--tcp", "nonsense"), "'nonsense' is no [HOST:]PORT"),
+        (("--model", KELVIN, "--tcp", "nonsense"), "'nonsense' is not [HOST:]PORT"),
         (("--model", KELVIN, "--tcp", "65536"), "a port is 0..65535"),
         (("--model", KELVIN, "--fault", "dropp=1"), "there is no fault 'dropp'"),
     ],
@@ -257,7 +257,7 @@ def test_a_place_is_a_host_and_a_port(text: str) -> None:
     ],
 )  # fmt: skip
 def test_a_host_that_is_not_whole_is_refused(text: str) -> None:
-    with pytest.raises(UsageError, match=re.escape(f"{text!r} is no [HOST:]PORT: an IPv6 address stands in brackets")):
+    with pytest.raises(UsageError, match=re.escape(f"{text!r} is not [HOST:]PORT: write an IPv6 address in brackets")):
         read_place("socket", text)
 
 
@@ -266,7 +266,7 @@ def test_a_host_that_is_not_whole_is_refused(text: str) -> None:
     ["", "[::1]", "localhost", "[::1]:", "1:65536", "1:-1", "1:+1", "1: 1", "1:1 ", "1:1e3", "1:000001", "1:\u0663"],
 )
 def test_a_port_that_is_none_is_refused(text: str) -> None:
-    with pytest.raises(UsageError, match=re.escape(f"{text!r} is no [HOST:]PORT: a port is 0..65535")):
+    with pytest.raises(UsageError, match=re.escape(f"{text!r} is not [HOST:]PORT: a port is 0..65535")):
         read_place("socket", text)
 
 

@@ -1,11 +1,19 @@
-"""The command line ``i7000``: what frames of a log mean, frames to send, what a model can do (extra ``cli``).
+"""The command line ``i7000`` (extra ``cli``): decode, encode, explain and simulate.
 
-Parts, from the outside: `app` has the commands and their options; `text` prints; `source` reads lines as they arrive,
-`log` and `hex_lines` find the frames in them; `reader` and `rtu` find what they can mean to those who know what `dcon`
-holds, `records` and `rtu_records` make records of that, `registers` names what Modbus messages touch; `message` makes
-messages of ``field=value``; `simulate` runs a simulation, `simulated` reads what it is of, `traffic` and `view` show
-what goes on in it, `outlet` writes that without waiting; `words` says values for people.
-Laws: what is put in never raises; nothing that was put in is left out of what comes out.
+Parts, from the outside:
+
+* `app` has the commands, each in a module of its own: `decode`, `encode`, `commands`, `register_list`, `errata`,
+  `simulate`. `options` has what several of them take.
+* For `decode`: `source` reads lines and bytes as they arrive, `readers` gives them to `i7000.dissect`, `frame_text`
+  makes lines for people of what that returns, `records` JSON, `schema` describes the JSON.
+* For `encode`: `message` makes a message of ``field=value``, `by_register` of register names and the map of a model.
+* For `commands`, `registers` and `errata`: `explain` collects facts, `facts` reads ``spec/``, `explain_text` prints.
+* For `simulate`: `simulation` runs it, `module` and `signals` read its options, `traffic` and `view` show what happens,
+  `outlet` writes without waiting.
+* For all: `words`, `choices`, `numbers` and `units` read values, `refusals` reports those that are refused, `text`
+  prints.
+
+Laws: no input raises; all input is in the output, decoded or not.
 """
 
 import sys
@@ -15,9 +23,9 @@ __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line, and tell the exit code: 0 understood, 1 not understood or refused, 2 wrong usage.
+    """Run the command line, and return the exit code: 0 understood, 1 not understood or refused, 2 wrong usage.
 
-    Special: without the packages of the extra it says what to install.
+    Special: without the packages of the extra it prints what to install.
     """
     try:
         from i7000.cli.app import run  # noqa: PLC0415 - what it needs may not be there

@@ -21,9 +21,9 @@ __all__ = ["app", "run"]
 
 app = App(
     name="i7000",
-    help="The protocols of the ICP DAS I-7000 / M-7000 analog input modules: what frames mean, how they are written."
-    "\n\nExit codes besides those of each command: 2 if the output cannot be written, 130 after Ctrl-C, 141 if nobody"
-    " reads the output to its end.",
+    help="Decode, encode and simulate DCON and Modbus RTU, the protocols of the ICP DAS I-7000 / M-7000 analog input"
+    " modules.\n\nExample: `i7000 decode '$012' '!01050600'`\n\nEvery command also exits with 2 if the output cannot be"
+    " written, 130 after Ctrl-C, 141 if the reader of the output stops early.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
@@ -34,14 +34,14 @@ for _command in (decode, encode, commands, registers, errata, simulate):
 
 @app.command(name="--install-completion")
 def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
-    """Complete commands and options in a shell, from its next start on. Example: `i7000 --install-completion bash`."""
+    """Complete commands and options in new shells. Example: `i7000 --install-completion bash`."""
     file = app.install_completion(shell=shell)
-    Printer().record({}, [[(f"{file} is read by {shell} from its next start on", "")]])
+    Printer().record({}, [[(f"completion is in {file}: start a new {shell} to use it", "")]])
     return 0
 
 
 def run(arguments: Sequence[str] | None) -> int:
-    """Run the command line, and tell the exit code."""
+    """Run the command line, and return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
@@ -49,10 +49,17 @@ def run(arguments: Sequence[str] | None) -> int:
         return CLOSED
     except (CycloptsError, UsageError, OSError) as error:
         with suppress(OSError, SystemExit):  # The terminal may be gone.
-            Printer().error(error)
+            Printer().error(_words(error))
         return 2
     except ModuleNotFoundError as missing:
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[simulator]"')
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
+
+
+def _words(error: Exception) -> str:
+    """Return what is wrong, of a file with its name first."""
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror if error.filename is None else f"{error.filename}: {error.strerror}"
+    return str(error)

@@ -1,4 +1,4 @@
-"""Requests of coils and registers for a model: addresses by name, values in units, both held against its map.
+"""Requests of coils and registers for a model: addresses by name, values in units, both checked against its map.
 
 Laws: what a map has at an address decides how a value there is written: as ``i7000 decode`` prints it. The manual's
 numbers (40489) are refused, since frames have addresses (488), and the address that is meant is named.
@@ -40,7 +40,7 @@ _PLACES = ("start", "coil", "register")
 
 
 def is_of_registers(kind: type[Message]) -> bool:
-    """Return whether a message is a request of coils, inputs or registers by address."""
+    """Return whether a message is a request for coils, inputs or registers by address."""
     return kind in AREAS
 
 
@@ -50,7 +50,7 @@ def is_reading(kind: type[Message]) -> bool:
 
 
 def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
-    """Take what stands for registers out of `given`, and return the values of these fields.
+    """Take the fields for registers out of `given`, and return their values.
 
     Special: with `force` only names are replaced by addresses; values stay in `given`, to be read as plain numbers.
         Without a map, nothing is taken.
@@ -112,13 +112,13 @@ def _article(area: Area) -> str:
 
 
 def _manual(kind: type[Message], field: str, text: str, registers: RegisterMap) -> str:
-    """Return why one of the manual's numbers is not an address, and what is."""
+    """Return why a number of the manual is not an address, and which address is meant."""
     area, address = Area(int(text[0])), int(text[1:]) - 1
     row = _at(registers, area, address)
-    what = f"{text} is the manual's number" + (f" of {row.name}" if row else "")
+    what = f"{text} is the number of {row.name} in the manual" if row else f"{text} is a number of the manual"
     if area is not AREAS[kind]:
         return f"{what}, {_article(area)} with the address {address}; {kind.__name__} is about {_words(AREAS[kind])}s"
-    return f"{what}, frames have its address: {field}={address}" + (
+    return f"{what}; its address in frames is {field}={address}" + (
         f" or {field}={row.name}" if row and row.address == address and (row.count == 1 or field == "start") else ""
     )
 

@@ -16,7 +16,7 @@ from i7000.cli.words import UsageError
 __all__ = ["commands"]
 
 _MOST_EXPLAINED = 4
-"""If a NAME means more commands, they are listed."""
+"""If a NAME fits more commands, they are listed."""
 
 _KINDS: Mapping[str, Sequence[AnyCommand]] = {
     "auto": (*dcon.COMMANDS, *modbus.REQUESTS),
@@ -26,29 +26,33 @@ _KINDS: Mapping[str, Sequence[AnyCommand]] = {
 
 
 def commands(
-    name: Annotated[str | None, Parameter(help="A name, syntax, function or section to explain in full.")] = None,
+    name: Annotated[
+        str | None, Parameter(help="A name, syntax, function or section to explain. Example: 2.10.")
+    ] = None,
     /,
     *,
-    model: Annotated[str | None, Parameter(help="The model.")] = None,
-    firmware: Annotated[str | None, Parameter(help="Its firmware; the newest if it is not given.")] = None,
+    model: Annotated[str | None, Parameter(help="List only what this model has. Example: I-7018R.")] = None,
+    firmware: Annotated[
+        str | None, Parameter(help="Firmware of the model, such as B3.9; the newest unless given.")
+    ] = None,
     protocol: Annotated[
         Literal["auto", "dcon", "rtu"],
-        Parameter(help="DCON, Modbus RTU, or both for a NAME; without a NAME auto is DCON."),
+        Parameter(help="DCON or Modbus RTU. auto: both for a NAME, else DCON."),
     ] = "auto",
     json: Json = False,
 ) -> int:
-    """List what a model can do, or all that any can, and who can; or explain one command in full.
+    """List the commands of a model, or of all models; or explain one command in full.
 
-    A NAME is that of a command or of its response in any spelling, a syntax (`'$AA2'`, quoted), a section (`2.10`), or
-    by Modbus a function and sub-function (`03`, `"46 2A"`). If it means many commands, they are listed.
+    A NAME is the name of a command or of its response, a syntax (`'$AA2'`, quoted), a section of the manual (`2.10`),
+    or a Modbus function with its sub-function (`03`, `"46 2A"`). A NAME that fits many commands lists them.
 
-    Columns of the list: section of the manual, command, response, name, what it is about, models; by Modbus the PDU of
-    the request, which begins with function and sub-function, and no response.
+    Columns of the list: section of the manual, command, response, name, subject, models. For Modbus: the PDU of the
+    request, which begins with function and sub-function, and no response.
 
     Examples: `i7000 commands --model M-7019R`, `i7000 commands SetCjcOffset`, `i7000 commands "46 2A"`
 
     JSON keys: `section`, `name`, `title`, `syntax`, `fields` (and their values), `response`, `response_syntax`,
-    `models` (and the firmware from which on, or null), `errata`. One that is explained also has `protocol`,
+    `models` (with their first firmware that has it, or null), `errata`. An explained command also has `protocol`,
     `description`, `parameters` and `response_parameters` (`name`, `notation`, `allowed`, `values` (of bytes of
     settings), `minimum`, `maximum`, `unit`, `scale`, `meaning`), `pause` (as in spec), `broadcast`, `exceptions`,
     `examples` and `refused` (vectors of spec), `errata_explained`.

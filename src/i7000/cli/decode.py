@@ -28,38 +28,40 @@ __all__ = ["decode"]
 
 
 def decode(  # noqa: PLR0913 - each of them is an option
-    *frames: Annotated[str, Parameter(help="Frames; without any, those of --file or of standard input.")],
+    *frames: Annotated[str, Parameter(help="Frames to decode. Without any, --file or standard input is read.")],
     file: Annotated[
-        Path | None, Parameter(help="A log, pcap or pcapng file; - is standard input.", allow_leading_hyphen=True)
+        Path | None,
+        Parameter(help="A log, pcap or pcapng file to decode; - is standard input.", allow_leading_hyphen=True),
     ] = None,
-    raw: Annotated[bool, Parameter(help="The input is what was on the line, byte by byte.", negative="")] = False,
+    raw: Annotated[bool, Parameter(help="The input is the bytes of the line, not a log of them.", negative="")] = False,
     protocol: Annotated[
-        Literal["auto", "dcon", "rtu"], Parameter(help="DCON, Modbus RTU, or auto: both, also mixed on one line.")
+        Literal["auto", "dcon", "rtu"], Parameter(help="The protocol on the line; auto recognizes both, even mixed.")
     ] = "auto",
     address: Annotated[
-        tuple[str, ...], Parameter(help="Show the module at this address only.", negative="", show_default=False)
+        tuple[str, ...],
+        Parameter(help="Show only the module at this address. Example: --address 2.", negative="", show_default=False),
     ] = (),
-    strict: Annotated[bool, Parameter(help="Lines without a frame are not understood either.", negative="")] = False,
+    strict: Annotated[bool, Parameter(help="Exit with 1 if a line has no frame.", negative="")] = False,
     json: Json = False,
-    schema: Annotated[bool, Parameter(help="Print the JSON Schema of --json.", negative="")] = False,
+    schema: Annotated[bool, Parameter(help="Print the JSON Schema of --json and exit.", negative="")] = False,
     module: Module = UNKNOWN,
 ) -> int:
-    r"""Decode frames: those given, or those of a log, a capture file or a stream.
+    r"""Decode frames, a log, a capture file or a stream.
 
-    Frames are found in any line and in any of the usual spellings: text (`$012`, `$012\r`, `$012<CR>`), hex
-    (`01 04 00 00 00 08 F1 CC`, `0x01,0x04,...`, `\x01\x04...`), decimal numbers, dumps; with dates, words and arrows
-    around them. In a shell, quote frames: it knows `$`, `#` and `>` too; and put `--` before one that begins with `-`.
+    Frames are found in any line of text, in the usual spellings: text (`$012`, `$012\r`, `$012<CR>`), hex
+    (`01 04 00 00 00 08 F1 CC`, `0x01,0x04,...`, `\x01\x04...`), decimal numbers, dumps. Dates, words and arrows may
+    stand around them. Quote frames in a shell, since it has its own use for `$`, `#` and `>`. Put `--` before a frame
+    that begins with `-`.
 
-    Each response is decoded together with its command. What the traffic shows of a module is used from there on: its
+    Each response is decoded together with its command. What the traffic shows about a module is used from then on: its
     name, firmware, types, data format, checksum. Without `--model`, every possible meaning is listed. With `--model`,
-    what is neither given nor shown has its factory default, if the frame fits that.
+    what is neither given nor shown has its factory default, if the frame fits it.
 
-    Several modules: `--model 1=M-7019R@B3.7,type=K --model 2=I-7018,checksum=true`.
+    Examples: `i7000 decode '$012' '!01050600'`, `i7000 decode --model M-7019R --type K --file bus.log`,
+    `i7000 decode --model 1=M-7019R@B3.7,type=K --model 2=I-7018,checksum=true --file bus.pcapng`
 
-    Exit code: 0 if every frame is understood (also if in more ways than one), 1 if one is damaged, unknown or
-    contradicts what is known, or if there is none at all, 2 for wrong usage.
-
-    `--json` writes an object a line; `--schema` prints what its keys are.
+    Exit code: 0 if every frame is understood, even in several ways; 1 if a frame is damaged, unknown or contradicts
+    what is known, or if there is no frame; 2 for wrong usage.
     """
     if schema:
         sys.stdout.write(f"{SCHEMA}\n")
@@ -86,10 +88,10 @@ class _Input:
 def _reads(
     given: _Input, knowledge: Knowledge, protocol: Protocol | None, printer: Printer
 ) -> Iterator[tuple[Iterable[Read], Lines | None]]:
-    """Yield what is read of the input; what was decoded is printed before waiting for more."""
+    """Yield the input in pieces; what is decoded is printed before waiting for more."""
     if given.frames:
         if given.file or given.raw:
-            raise UsageError("frames are given, and --file or --raw too: give one of them")
+            raise UsageError("give either frames, or --file or --raw")
         yield of_lines(enumerate(map(_argument, given.frames), 1), knowledge, protocol), None
         return
     with _opened(given.file) as stream:
@@ -118,7 +120,7 @@ def _text(line: bytes) -> str:
 
 
 def _argument(text: str) -> str:
-    """Return an argument as it would be in a file, whatever the encoding of arguments is."""
+    """Return an argument as it would stand in a file, whatever the encoding of arguments is."""
     try:
         return _text(os.fsencode(text))
     except UnicodeEncodeError:
@@ -129,7 +131,7 @@ def _argument(text: str) -> str:
 
 
 class _Tally:
-    """How many frames there were, and which of them are not understood."""
+    """The number of frames, and which of them are not understood."""
 
     def __init__(self) -> None:
         self.records = self.frames = 0
@@ -145,11 +147,11 @@ class _Tally:
             self.wrong.add(read.line)
 
     def code(self, printer: Printer, long: Counted, *, strict: bool) -> int:
-        """Say what was wrong, and return the exit code."""
+        """Print what was wrong, and return the exit code."""
         if not self.records:
-            printer.error("there was nothing to decode")
+            printer.error("nothing to decode: the input is empty")
         elif not self.frames:
-            printer.error("there is no frame in it")
+            printer.error("no frame in the input")
         if long.count:
             cut = f"read in pieces of {LONGEST_LINE} bytes that may cut frames"
             printer.error(f"{long.count} too long, {cut}: line {long}")

@@ -14,34 +14,36 @@ __all__ = ["encode"]
 
 
 def encode(
-    name: Annotated[str, Parameter(help="A command, as i7000 commands lists it, or a response.")],
+    name: Annotated[str, Parameter(help="Name of a command or response. i7000 commands lists them.")],
     /,
-    *fields: Annotated[str, Parameter(help="field=value for each field.")],
+    *fields: Annotated[str, Parameter(help="The fields, each as field=value. Example: address=1.")],
     protocol: ProtocolName = "dcon",
-    force: Annotated[bool, Parameter(help="Write it even if the module would refuse it.", negative="")] = False,
+    force: Annotated[bool, Parameter(help="Encode it even if the module would refuse it.", negative="")] = False,
     json: Json = False,
     module: Module = UNKNOWN,
 ) -> int:
-    """Write a frame: as text, then in hex; by Modbus in hex.
+    """Encode a message and print its frame: DCON as text, then in hex; Modbus in hex.
 
-    * Numbers are decimal, or hex as `0x3A` or `3Ah`; truth values `true` or `false`; choices a name or a number:
-      `update=once`.
-    * What has a unit is given in it, as `i7000 decode` prints it: `offset=-0.5` (degC), `timeout=2.5` (s). A number in
-      hex is the counts that the frame has: `offset=0x32` is 0.5 degC.
-    * Types are the manual's two hex digits or names: `type_code=0F`, `type_code=K`, `type_code=mixed`.
+    * Numbers are decimal, or hex as `0x3A` or `3Ah`. Truth values are `true` and `false`. A choice is a name or a
+      number: `update=once`.
+    * Values have the unit that `i7000 decode` prints: `offset=-0.5` (degC), `timeout=2.5` (s). A number in hex is the
+      counts in the frame: `offset=0x32` is 0.5 degC.
+    * A type is two hex digits or a name: `type_code=0F`, `type_code=K`, `type_code=mixed`.
     * A mask is a number or a list of channels: `mask=0x3A` or `channels=1,3,4,5`.
     * `line_settings` is a byte, `line_settings=86h`, or its parts: `baud_rate=9600 character_format=E81`.
     * `report_settings` is a byte, `report_settings=40h`, or its parts: `data_format=hex checksum=true
-      fast_mode=false filter=reject_50_hz`. Parts that are not given are those of the byte, or the factory default.
-    * Lists have commas between: `values=+01.500,-01.500`, by Modbus `values=1,0x1F` or `values=true,false`.
-    * By Modbus, `start`, `coil` and `register` are addresses as frames have them: 488 for 40489. With `--model` they
-      can be names, `register=host_watchdog_timeout value=2.5`, values have the units of `i7000 registers`, and what the
-      model does not have is refused. Without it, or with `--force`, values are the numbers that the frame has.
+      fast_mode=false filter=reject_50_hz`. Missing parts are those of the byte, or the factory default.
+    * A list has commas: `values=+01.500,-01.500`; in Modbus `values=1,0x1F` or `values=true,false`.
+    * In Modbus, `start`, `coil` and `register` are addresses as in frames: 488 for 40489. With `--model` they can be
+      names, `register=host_watchdog_timeout value=2.5`. Values then have the units of `i7000 registers`, and what the
+      model does not have is refused. Without `--model`, or with `--force`, values are the numbers in the frame.
 
-    Examples: `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
+    Examples: `i7000 encode ReadConfiguration address=1`,
+    `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
     `i7000 encode ReadInputRegisters address=1 start=analog_input --model M-7019R --protocol rtu`
 
-    Exit code: 0; 1 if the model, or every model, refuses it; 2 for wrong usage.
+    Exit code: 0 if the frame is printed, 1 if the model (or, without `--model`, every model) refuses it, 2 for wrong
+    usage.
 
     JSON keys: `name`, `section`, `frame`, `wire` (hex).
     """
@@ -54,7 +56,7 @@ def encode(
         frame = encode_message(message, known, force=force)
     except InvalidValueError as refusal:
         words = refusal_words(refusal, kind, fields)
-        printer.error(words if known.model or refusal.reason else f"no model takes it: {words}")
+        printer.error(words if known.model or refusal.reason else f"no model accepts it: {words}")
         return 1
     text = frame_text(message, frame)
     record = {"name": type(message).__name__, "section": message.section, "frame": text, "wire": frame.hex()}

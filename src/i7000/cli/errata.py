@@ -15,18 +15,21 @@ __all__ = ["errata"]
 
 def errata(
     name: Annotated[
-        str | None, Parameter(help="An id as E24, a section as 2.11, or a command; all if not given.")
+        str | None,
+        Parameter(help="An id, a section or a command to explain; all are listed unless given. Example: E24."),
     ] = None,
     /,
     *,
     json: Json = False,
 ) -> int:
-    """List where the manual contradicts itself or is silent, or explain one such place in full.
+    """List the errata, or explain one in full.
+
+    An erratum is a place where the manual contradicts itself or is silent, with the chosen reading.
 
     Examples: `i7000 errata E24`, `i7000 errata 2.11`
 
-    JSON keys: `id`, `sections`, `what`, `reading`, `assumption` (whether the manual does not support the reading by
-    itself), `evidence`, `used_by`.
+    JSON keys: `id`, `sections`, `what`, `reading`, `assumption` (true if the manual alone does not support the
+    reading), `evidence`, `used_by`.
     """
     printer = Printer(json=json)
     for row in facts.errata().values() if name is None else errata_named(name):

@@ -1,4 +1,4 @@
-"""One thing in full: a command, a register or an erratum, as a record with all that ``spec/`` and the classes say."""
+"""A command, a register or an erratum in full: a record of all that ``spec/`` and the classes say about it."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -25,11 +25,11 @@ from i7000.message import Message
 __all__ = ["AnyCommand", "command_explained", "commands_named", "errata_named", "registers_explained"]
 
 _EXAMPLES = 2
-"""Examples that are shown of what is accepted."""
+"""The number of examples shown for accepted frames."""
 
 
 def _plain(name: str) -> str:
-    """A name without what people write differently."""
+    """Return a name in lower case, without separators."""
     return re.sub(r"[-_\s]", "", name).lower()
 
 
@@ -41,7 +41,7 @@ AnyCommand = type[dcon.AnyCommand] | type[modbus.Request[Any]]
 def commands_named(name: str, kinds: Sequence[AnyCommand]) -> list[AnyCommand]:
     """Find commands by name, by the name of their response, by syntax, by function and sub-function, or by section.
 
-    Errors: `UsageError` with suggestions, if there is none.
+    Errors: `UsageError` with suggestions, if no command fits.
 
     >>> [found] = commands_named("$AA2", dcon.COMMANDS)
     >>> found.__name__
@@ -62,7 +62,8 @@ def commands_named(name: str, kinds: Sequence[AnyCommand]) -> list[AnyCommand]:
     close = [it for it in names if len(name) > 2 and _plain(name) in it.lower()]
     hint = f"; did you mean {' or '.join(close)}?" if 0 < len(close) <= 6 else near(name, names)
     raise UsageError(
-        f"there is no command {name!r}: give a name, a syntax as $AA2, a function as 46 2A, a section{hint}"
+        f"there is no command {name!r}: give a name, a syntax such as $AA2, a function such as 46 2A, or a section such"
+        f" as 2.10{hint}"
     )
 
 
@@ -77,7 +78,7 @@ def _response_name(kind: AnyCommand) -> str:
 
 
 def _is_function(text: str, kind: AnyCommand) -> bool:
-    """Whether a text begins with the function of a request, and its sub-function if it has more."""
+    """Return whether a text begins with the function of a request, and its sub-function if it has more."""
     if not issubclass(kind, modbus.Request):
         return False
     tokens = re.findall(r"\b([0-9A-F]{2})H?\b", text.upper().replace("0X", ""))
@@ -86,7 +87,7 @@ def _is_function(text: str, kind: AnyCommand) -> bool:
 
 
 def command_explained(kind: AnyCommand, models: list[str]) -> Record:
-    """A command or request in full: the keys of a listed one, and more."""
+    """Return a command or request in full: the keys of a listed one, and more."""
     row = facts.command_row(kind)
     if issubclass(kind, modbus.Request):
         listed, protocol, side = command_record(kind, models), "rtu", "request"
@@ -159,7 +160,7 @@ def _example(vector: Record, side: str) -> Record:
 
 
 def registers_explained(name: str, profiles: Iterable[Profile]) -> list[Record]:
-    """The rows that a name, one of the manual's numbers or an address means: one record for models with the same.
+    """Return the rows that a name, a number of the manual or an address means: one record for models that share it.
 
     Errors: `UsageError` with suggestions, if no model has it.
     """
@@ -174,7 +175,9 @@ def registers_explained(name: str, profiles: Iterable[Profile]) -> list[Record]:
         known = sorted(names)
         close = [it for it in known if len(name) > 2 and _plain(name) in _plain(it)]
         hint = f"; did you mean {' or '.join(close)}?" if 0 < len(close) <= 6 else near(name, known)
-        raise UsageError(f"there is no register {name!r}: give a name, a number as 40489, an address as 488{hint}")
+        raise UsageError(
+            f"there is no register {name!r}: give a name, a number such as 40489, or an address such as 488{hint}"
+        )
     return found
 
 
@@ -217,7 +220,7 @@ def _functions(row: modbus.Register) -> list[str]:
 def errata_named(name: str) -> Iterator[Record]:
     """Yield the errata with an id, or those about a section or a command.
 
-    Errors: `UsageError` if there is none.
+    Errors: `UsageError` if no erratum fits.
     """
     number = re.fullmatch("E([0-9]+)", name.upper())
     wanted = f"E{int(number[1]):02}" if number else ""
@@ -227,5 +230,5 @@ def errata_named(name: str) -> Iterator[Record]:
         if row["id"] == wanted or name in row["sections"] or _plain(name) in map(_plain, row["used_by"])
     ]
     if not found:
-        raise UsageError(f"there is no erratum {name!r}: give an id as E24, a section as 2.11, or a command")
+        raise UsageError(f"there is no erratum {name!r}: give an id such as E24, a section such as 2.11, or a command")
     yield from found

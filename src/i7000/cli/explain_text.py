@@ -14,7 +14,7 @@ __all__ = ["command_text", "erratum_lines", "erratum_text", "register_text"]
 _INDENT = "  "
 _LABEL = 14
 _WIDEST = 100
-"""Characters of a line; fewer where the terminal has fewer."""
+"""The width of a line in characters; less on a narrower terminal."""
 
 
 def _labelled(label: str, text: str, style: str = "") -> Iterator[Line]:
@@ -42,7 +42,7 @@ def _errata(record: Record, shown: set[str]) -> Iterator[Line]:
 
 
 def command_text(record: Record, shown: set[str]) -> Iterator[Line]:
-    """A command or request in full; what is in `shown` has been told before, and what is told here is added to it."""
+    """Return a command or request in full; errata in `shown` were printed before, and those printed here are added."""
     dcon = record["protocol"] == "dcon"
     if shown:
         yield []
@@ -155,12 +155,12 @@ def _limits(record: Record) -> str:
 
 
 def erratum_lines(record: Record) -> Iterator[Line]:
-    """One erratum of many: what it is about."""
+    """Return the line of an erratum in a list: its id and subject."""
     yield from _labelled(f"{record['id']:<4} {record['sections'][0] if record['sections'] else ''}", record["what"])
 
 
 def erratum_text(record: Record) -> Iterator[Line]:
-    """One erratum in full."""
+    """Return an erratum in full."""
     yield _heading(record["id"], "", record["sections"])
     yield from _labelled("what", record["what"])
     yield from _labelled("reading", record["reading"])

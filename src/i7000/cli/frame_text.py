@@ -17,7 +17,7 @@ _INDENT = "     "
 
 
 def frame_lines(read: Read, *, models: bool) -> Iterator[Line]:
-    """Yield what a frame means; `models`: with the models that it fits."""
+    """Yield the meaning of a frame in lines; with `models`, also the models that it fits."""
     for at, text in enumerate(read.text.split("\n")):
         yield [(f"{read.line + at:<4} ", ""), (text, "bold")]
     heard = read.heard

@@ -58,12 +58,12 @@ def registers(known: Known) -> modbus.RegisterMap | None:
 
 
 def _decided(known: Known) -> Known:
-    """What is known, with the factory defaults that frames depend on."""
+    """Return what is known, with the factory defaults that frames depend on."""
     return evolve(known, checksum=bool(known.checksum), single_ended=bool(known.single_ended))
 
 
 def encode(message: Message, known: Known, *, force: bool) -> bytes:
-    """Write a message, for the model that is known or for all of them, if it is the same for all that have it.
+    """Encode a message for the known model, or for all models if its frame is the same for all that have it.
 
     Errors: `InvalidValueError` if no module takes it, `UsageError` if the frame depends on the model.
     """
@@ -114,7 +114,7 @@ def refusal_words(refusal: InvalidValueError, kind: type[Message], assignments: 
 
 
 def frame_text(message: Message, frame: bytes) -> str:
-    """A frame as people write it: DCON as text, Modbus in hex."""
+    """Return a frame as people write it: DCON as text, Modbus in hex."""
     return frame.hex(" ").upper() if isinstance(message, modbus.Message) else frame[:-1].decode()
 
 
@@ -177,7 +177,9 @@ def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
         if not equals:
             raise UsageError(f"{assignment!r} is not field=value; the fields of {kind.__name__} are {', '.join(known)}")
         if field not in known:
-            raise UsageError(f"{kind.__name__} has no {field}: {', '.join(known)}{near(field, known)}")
+            raise UsageError(
+                f"{kind.__name__} has no field {field!r}; its fields are {', '.join(known)}{near(field, known)}"
+            )
         if field in given:
             raise UsageError(f"{field} is given twice")
         given[field] = value
@@ -194,7 +196,7 @@ def find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
     if wanted not in plain:
         other, protocol = (MODBUS, "rtu") if kinds is DCON else (DCON, "dcon")
         if any(kind.__name__.lower() == wanted for kind in other):
-            raise UsageError(f"{name} is of the other protocol: --protocol {protocol}")
+            raise UsageError(f"{name} is a message of the other protocol: add --protocol {protocol}")
         close = [plain[word].__name__ for word in plain if wanted and wanted in word]
         hint = f"; did you mean {' or '.join(close)}?" if close else near(name, [kind.__name__ for kind in kinds])
         if name[:1] in ("$", "#", "%", "~", "@", "!", ">", "?"):
@@ -285,7 +287,7 @@ def _assemble(field: str, part: dict[str, Callable[[str], Any]], given: dict[str
         if whole is None:
             return parts["channels"]
         if parts:
-            raise UsageError("mask and channels are the same: give one")
+            raise UsageError("mask and channels mean the same: give one of them")
         return _named(field, whole, integer)
     kind = _BYTES[field]
     return evolve(kind() if whole is None else kind.from_byte(_named(field, whole, hex_byte)), **parts)

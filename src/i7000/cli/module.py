@@ -33,7 +33,7 @@ __all__ = ["Described", "named", "read_module"]
 
 @contextmanager
 def named(*names: str) -> Iterator[None]:
-    """Tell in errors what was read."""
+    """Put the name of what is read in front of errors."""
     try:
         yield
     except (UsageError, InvalidValueError) as error:
@@ -45,17 +45,17 @@ class Described:
     """A module as it was described."""
 
     eeprom: Eeprom
-    """What it remembers."""
+    """Its settings."""
     init_switch: bool
     """Whether it gets power with the INIT switch set."""
     given: frozenset[str]
-    """What the description says: names of settings, and ``firmware``."""
+    """The names of the settings in the description, and ``firmware``."""
 
 
 def read_module(text: str, address: int) -> Described:
     """Read a module.
 
-    Shape: ``MODEL[@FIRMWARE][,name=value...]``; what is not said is the factory's, but the address, which is `address`.
+    Shape: ``MODEL[@FIRMWARE][,name=value...]``; other settings have the factory default, the address is `address`.
     Errors: `UsageError`.
 
     >>> described = read_module("I-7018@B2.9,type=K,checksum=true", 0x02)
@@ -99,7 +99,8 @@ def _assigned(
         if not equals:
             raise UsageError(f"{assignment!r} is not name=value")
         if name not in _SETTINGS:
-            raise UsageError(f"a module has no {name!r}: {', '.join(_SETTINGS)}{near(name, list(_SETTINGS))}")
+            names = list(_SETTINGS)
+            raise UsageError(f"a module has no setting {name!r}: {', '.join(names)}{near(name, names)}")
         setting = _SETTINGS[name]
         before, _ = written.setdefault(setting.field, (name, value))
         if setting.field in values[setting.within]:
@@ -114,7 +115,7 @@ def _assigned(
 
 
 def _check(eeprom: Eeprom) -> None:
-    """Refuse what the module could not have been set to.
+    """Refuse settings that the module cannot have.
 
     Errors: `InvalidValueError`.
     """
@@ -127,7 +128,9 @@ def _check(eeprom: Eeprom) -> None:
 def _defined_baud_rate(text: str) -> BaudRate:
     rate = baud_rate(text)
     if not isinstance(rate, BaudRate):
-        raise UsageError(f"{text} baud is none of {', '.join(str(known.bits_per_second) for known in BaudRate)}")
+        raise UsageError(
+            f"{text} is not a baud rate: give one of {', '.join(str(known.bits_per_second) for known in BaudRate)}"
+        )
     return rate
 
 
@@ -176,7 +179,7 @@ _TENTHS = _counts(Unit.CELSIUS, 10, -0x80, 0x7F)
 
 @frozen
 class _Scope:
-    """Who has a setting."""
+    """The models that have a setting."""
 
     text: str
     holds: Callable[[Model], bool]
@@ -191,7 +194,7 @@ _OPEN_WIRE = _Scope("models that notice an open wire only", lambda model: model.
 
 @frozen
 class _Setting:
-    """What can be said of a module."""
+    """A setting in the description of a module."""
 
     field: str
     read: Callable[[str, Eeprom], Any]

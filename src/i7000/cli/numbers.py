@@ -41,7 +41,7 @@ def integer(text: str) -> int:
         return int(text)
     if _BARE.fullmatch(text):
         raise UsageError(f"{text!r} has hex digits: write 0x{text} or {text}h")
-    raise UsageError(f"{text!r} is not a number: decimal, or hex as 0x1A or 1Ah")
+    raise UsageError(f"{text!r} is not a number: write it in decimal, or in hex as 0x1A or 1Ah")
 
 
 def hex_byte(text: str) -> int:
@@ -69,5 +69,5 @@ def baud_rate(text: str) -> BaudRate | int:
     number = integer(text)
     rates = {rate.bits_per_second: rate for rate in BaudRate}
     if number > max(BaudRate) and number not in rates:
-        raise UsageError(f"{text} baud is none of {', '.join(map(str, rates))}")
+        raise UsageError(f"{text} is not a baud rate: give one of {', '.join(map(str, rates))}")
     return rates.get(number, BaudRate.of(number))

@@ -1,4 +1,4 @@
-"""What several commands take: options of a module, of output, of protocols."""
+"""The options that several commands have: the module, the protocol, JSON."""
 
 import re
 from typing import Annotated, Literal
@@ -12,11 +12,12 @@ from i7000.cli.module import Described, read_module
 from i7000.cli.numbers import integer
 from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, type_codes
+from i7000.describe import address as address_words
 from i7000.dissect import Knowledge, Known
 
 __all__ = ["PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
 
-ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="DCON, or Modbus RTU.")]
+ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="The protocol of the message: DCON or Modbus RTU.")]
 PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
 """The names of the protocols at the terminal."""
 
@@ -27,23 +28,24 @@ _LAST_ADDRESS = 0xFF
 @Parameter(name="*")
 @frozen
 class Module:
-    """What is known about the module; the rest is unknown."""
+    """What is known about the modules."""
 
     model: Annotated[tuple[str, ...], Parameter(negative="", show_default=False)] = ()
-    """Its printed name, I-7018R, or as for `simulate`: M-7019R@B3.7,type=K. With its address before it, 1=M-7019R, once
-    for each of several modules."""
+    """Model of the module, with settings if you like: I-7018R or M-7019R@B3.7,type=K; see `i7000 simulate --help`. For
+    several modules, give each with its address: --model 1=M-7019R --model 2=I-7018."""
     firmware: str | None = None
-    """Its firmware: B3.9; the newest if it is not given."""
+    """Firmware of the module, such as B3.9; the newest unless given."""
     types: Annotated[str | None, Parameter(name="--type")] = None
-    """Its type, or the types of all channels with commas between: hex codes (0F) or names (K, V_10, MA_4_20)."""
+    """Type of all channels, such as K, V_10, MA_4_20 or the hex code 0F; or a type for each channel, with commas
+    between. The factory default of the model unless given."""
     data_format: Annotated[DataFormat | None, Parameter(name="--format")] = None
-    """How its readings are written."""
+    """Format of DCON readings; engineering unless given."""
     checksum: bool | None = None
-    """Whether its frames have a checksum."""
+    """Whether DCON frames have a checksum; without unless given."""
     single_ended: Annotated[bool | None, Parameter(negative="--differential")] = None
-    """Whether its inputs are single-ended: 7017Z only."""
+    """Whether the inputs of a 7017Z are single-ended; differential unless given."""
     modbus_format: ModbusDataFormat | None = None
-    """How its analog registers are written."""
+    """Format of the analog registers of Modbus; hex unless given."""
 
     def known(self, protocol: str = "dcon") -> Known:
         """Return what is known of the one module that is described.
@@ -73,6 +75,8 @@ class Module:
         found: dict[int | None, Known] = {}
         for text in self.model:
             address, described = _described(text)
+            if address in found and address is not None:
+                raise UsageError(f"two modules have the address {address_words(address)}: give each its own")
             if address in found:
                 raise UsageError(f"give the addresses of several modules: --model 1={self.model[0]} --model 2={text}")
             missing = {
@@ -85,9 +89,9 @@ class Module:
 
     def _options(self, protocol: str) -> Known:
         if protocol == "rtu" and (self.data_format is not None or self.checksum is not None):
-            raise UsageError("--format and --checksum are of DCON; the registers have --modbus-format")
+            raise UsageError("--format and --checksum are for DCON; for Modbus give --modbus-format")
         if protocol == "dcon" and self.modbus_format is not None:
-            raise UsageError("--modbus-format is of --protocol rtu; DCON has --format")
+            raise UsageError("--modbus-format is for --protocol rtu; for DCON give --format")
         try:
             known = Known(
                 None,
@@ -105,7 +109,7 @@ class Module:
     def _checked(self, known: Known, protocol: str) -> Known:
         """Refuse what no module is."""
         if protocol == "rtu" and known.model and Protocol.MODBUS_RTU not in known.model.protocols:
-            raise UsageError(f"{known.model.value} has no Modbus: M-7000 series only")
+            raise UsageError(f"{known.model.value} does not speak Modbus: M-7000 series only")
         try:
             _ = known.default, known.all, protocol == "rtu" and known.modbus
         except InvalidValueError as refusal:
@@ -156,4 +160,4 @@ def _known(described: Described) -> Known:
 
 
 UNKNOWN = Module()
-Json = Annotated[bool, Parameter(help="Write JSON, an object a line.", negative="")]
+Json = Annotated[bool, Parameter(help="Print JSON, one object a line.", negative="")]

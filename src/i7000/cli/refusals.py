@@ -1,4 +1,4 @@
-"""Refusals of values, said with what was written at the terminal."""
+"""Refusals of values, with the values as they were written at the terminal."""
 
 from i7000 import InvalidValueError
 

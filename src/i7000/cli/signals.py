@@ -67,7 +67,7 @@ def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0)
         with named(repr(text)):
             where, equals, what = text.partition("=")
             if not equals:
-                raise UsageError("it is not [ADDRESS:]CHANNELS=SOURCE")
+                raise UsageError("write [ADDRESS:]CHANNELS=SIGNAL, such as 0=1.5V")
             address, _, channels = where.rpartition(":")
             make = _maker(what.strip())
             for module in _addressed(address.strip(), eeproms):
@@ -77,7 +77,7 @@ def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0)
 
 
 def _addressed(address: str, eeproms: Sequence[Eeprom]) -> list[int]:
-    """Tell which modules have the address; all, if none is given."""
+    """Return the modules with the address; all if it is empty."""
     if not address:
         return list(range(len(eeproms)))
     wanted = integer(address)
@@ -89,7 +89,7 @@ def _addressed(address: str, eeproms: Sequence[Eeprom]) -> list[int]:
 
 
 def _units(text: str, eeprom: Eeprom) -> dict[str, Unit]:
-    """Tell which columns of a recording are meant, and the units of plain numbers there."""
+    """Return the columns of a recording that are meant, with the units of plain numbers in them."""
     if text.lower() == "cjc":
         return {COLD_JUNCTION: Unit.CELSIUS}
     try:
@@ -143,7 +143,9 @@ def _source(text: str, unit: Unit, seed: str) -> Source:
         raise UsageError(f"{text!r} is not {_FORMS[kind.lower()]}")
     if kind[:1].isalpha():
         forms = ", ".join(_FORMS.values())
-        raise UsageError(f"{text!r} is no source: a quantity as 1.5V, {forms}{near(kind.lower(), list(_FORMS))}")
+        raise UsageError(
+            f"{text!r} is not a signal: give a quantity such as 1.5V, {forms}{near(kind.lower(), list(_FORMS))}"
+        )
     value, said = quantity(text)
     return Fixed(Signal(value, said or unit))
 
@@ -159,5 +161,5 @@ def _pair(first: str, second: str, unit: Unit) -> tuple[float, float, Unit]:
 def _seconds(text: str) -> float:
     value, unit = quantity(text.removesuffix("s"))
     if unit:
-        raise UsageError(f"{text!r} is no time: seconds")
+        raise UsageError(f"{text!r} is not a time: give seconds without a unit")
     return value

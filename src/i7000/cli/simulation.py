@@ -1,4 +1,4 @@
-"""A simulation as the options describe it, and how it runs and ends.
+"""A simulation: its options, how it runs and how it ends.
 
 Laws: what some options need and others do not is imported when it is asked for.
 """
@@ -37,7 +37,7 @@ __all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_p
 
 @frozen
 class Place:
-    """Where on the network to wait for hosts."""
+    """A place on the network to listen at."""
 
     scheme: str
     """``socket`` or ``rfc2217``, as in the URLs of pyserial."""
@@ -47,7 +47,7 @@ class Place:
 
 @frozen
 class Simulation:
-    """All that is to be simulated, and how to get at it."""
+    """Everything that is simulated, and the ports to it."""
 
     modules: tuple[Simulated, ...]
     faults: Faults
@@ -60,7 +60,7 @@ class Simulation:
 
 @contextmanager
 def held(memory: Path | None) -> Iterator[None]:
-    """Keep other simulators from the file in which the modules remember, if there is one.
+    """Lock the file of the settings, if there is one, against other simulators.
 
     Errors: `UsageError` if another one uses it; that or `OSError` if it cannot be written.
     """
@@ -80,9 +80,9 @@ def held(memory: Path | None) -> Iterator[None]:
 def read_modules(
     texts: Sequence[str], signals: Sequence[str], *, seed: int, memory: Path | None
 ) -> tuple[Simulated, ...]:
-    """Tell what modules there are to be, and what is on their inputs.
+    """Return the modules, with the signals at their inputs.
 
-    Special: what a file has stored is what its modules remember; else what `texts` say is.
+    Special: an existing file decides the settings; otherwise `texts` do.
     Errors: `UsageError`, also for a file that is damaged; `OSError`.
     """
     described = [read_module(text, address) for address, text in enumerate(texts, 1)]
@@ -99,7 +99,7 @@ def read_modules(
             raise UsageError(f"{memory} holds {_kinds(stored)}, not {_kinds(eeproms)}")
         eeproms, switches = stored, switches or (False,) * len(stored)
     if not eeproms:
-        raise UsageError("no modules: give --model, once for each")
+        raise UsageError("no modules: give --model once for each, such as --model M-7019R")
     return tuple(map(Simulated, eeproms, read_signals(signals, eeproms, seed), switches))
 
 
@@ -112,7 +112,7 @@ def _kinds(eeproms: Sequence[Eeprom]) -> str:
 
 
 def read_place(scheme: str, text: str) -> Place:
-    """Read ``[HOST:]PORT``; the host is this machine alone if nothing else is said.
+    """Read ``[HOST:]PORT``; without a host, only this machine can connect.
 
     Errors: `UsageError`.
 
@@ -121,7 +121,7 @@ def read_place(scheme: str, text: str) -> Place:
     """
     host, _, port = text.rpartition(":")
     if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
-        raise UsageError(f"{text!r} is no [HOST:]PORT: a port is 0..65535, 0 any that is free")
+        raise UsageError(f"{text!r} is not [HOST:]PORT: a port is 0..65535; 0 takes any free one")
     return Place(scheme, _host(host, text) or LOOPBACK, int(port))
 
 
@@ -133,7 +133,7 @@ def _host(host: str, text: str) -> str:
             return host[1:-1]
     elif not set(host) & set("[]:"):
         return host
-    raise UsageError(f"{text!r} is no [HOST:]PORT: an IPv6 address stands in brackets, as in [::1]:5020")
+    raise UsageError(f"{text!r} is not [HOST:]PORT: write an IPv6 address in brackets, such as [::1]:5020")
 
 
 def read_faults(texts: Sequence[str]) -> Faults:
@@ -149,7 +149,7 @@ def read_faults(texts: Sequence[str]) -> Faults:
         name, equals, value = text.partition("=")
         kinds = {kind: type(getattr(Faults(), kind)) for kind in fields_dict(Faults) if kind != "late_by"}
         if name not in kinds:
-            raise UsageError(f"there is no fault {name!r}: {', '.join(kinds)}{near(name, list(kinds))}")
+            raise UsageError(f"there is no fault {name!r}; faults are {', '.join(kinds)}{near(name, list(kinds))}")
         if kinds[name] is bool:
             if equals:
                 raise UsageError(f"--fault {name} has no value")
@@ -170,7 +170,7 @@ def read_faults(texts: Sequence[str]) -> Faults:
 
 
 def run(simulated: Simulation, printer: Printer) -> int:
-    """Simulate until Ctrl-C, or until somebody ends it; where hosts find it is the first that is printed.
+    """Simulate until Ctrl-C or another signal; the ports are printed first.
 
     Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
     """
@@ -229,9 +229,8 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
             simulator.store = partial(save, simulated.memory)
             simulator.store([module.eeprom for module in simulated.modules])
         for address, protocol in _shared(simulator.bus.modules):
-            printer.error(
-                f"several modules have address {address:02X} and speak {protocol.name}: their answers collide"
-            )
+            name = protocol.name.replace("_", " ")
+            printer.error(f"several modules have address {address:02X} and speak {name}: their responses collide")
         async with AsyncExitStack() as opened:
             places = await _open(simulated, simulator, opened)
             for place in places:
@@ -267,13 +266,13 @@ def _ended_by_signals(simulator: Simulator) -> Iterator[None]:
 
 
 def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
-    """Tell the addresses that several modules of one protocol have."""
+    """Return the addresses that several modules of one protocol have."""
     counted = Counter((module.ram.address, module.ram.protocol) for module in modules)
     return [key for key, count in counted.items() if count > 1]
 
 
 async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitStack) -> list[str]:
-    """Open all places where hosts are to find the bus, and tell them."""
+    """Open all ports of the bus, and return their names."""
     found = []
     if simulated.pty:
         try:
@@ -294,6 +293,6 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
 
 
 def _show_lines(printer: Printer, out: Outlet, observed: Observed) -> None:
-    """Show what was on the line, unless nobody reads what was shown before."""
+    """Print the traffic, unless nobody reads the output."""
     if not out.skip(1 if observed.answer is None else 2):
         printer.show(lines(observed))

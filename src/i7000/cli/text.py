@@ -42,7 +42,7 @@ _json = json.JSONEncoder(check_circular=False).encode
 
 
 class Printer:
-    """Where output goes: `json` as one object a line, else for people.
+    """The output: with `json` one object a line, else lines for people.
 
     Time: records off a terminal are in the buffer of standard output until `flush`: Ctrl-C loses none of them.
     """
@@ -53,14 +53,14 @@ class Printer:
 
     @cached_property
     def out(self) -> "Console":
-        """Standard output for those who draw on it."""
+        """Standard output, to draw on."""
         from rich.console import Console  # noqa: PLC0415 - it takes time
 
         return Console(highlight=False)
 
     @cached_property
     def err(self) -> "Console":
-        """Standard error for those who draw on it."""
+        """Standard error, to draw on."""
         from rich.console import Console  # noqa: PLC0415 - it takes time
 
         return Console(highlight=False, stderr=True)
@@ -93,7 +93,7 @@ class Printer:
             _print(self.out, printable(line, self.out.encoding))
 
     def error(self, message: object) -> None:
-        """Say what is wrong."""
+        """Print an error."""
         with suppress(OSError):  # `program` reports that the output cannot be written.
             self.flush()
         line = [(f"i7000: {message}", "red")]
@@ -155,7 +155,7 @@ _ESCAPES = _Escapes()
 
 
 def escaped(text: str) -> str:
-    r"""Escape what is no character of a line, and could move a terminal's cursor or is not seen on it.
+    r"""Escape characters that are invisible or could move the cursor of a terminal.
 
     >>> escaped("\x1b[2J")
     '\\x1b[2J'
@@ -164,7 +164,7 @@ def escaped(text: str) -> str:
 
 
 def printable(text: "Text", encoding: str) -> "Text":
-    """Escape what is no character of a line, or none that can be written."""
+    """Escape control characters, and those that the encoding of the output lacks."""
     plain = text.plain
     if plain.isascii() and plain.isprintable():
         return text

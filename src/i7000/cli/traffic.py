@@ -1,4 +1,4 @@
-"""What was on the line, decoded, in lines for people.
+"""Traffic, decoded, in lines for people.
 
 Laws: nothing raises, whatever the bytes; all that came from the line is escaped, so that no line moves a terminal's
 cursor; what cannot be decoded is shown as bytes, with what is wrong.
@@ -28,9 +28,9 @@ _ELSEWHERE = ("address", "value", "values")
 
 
 def lines(observed: Observed) -> Iterator[Text]:
-    """Tell what was on the line: what was heard in one line, what came back in another, if it did.
+    """Return the lines of an exchange: one for the command, and one for the response if there is one.
 
-    Special: silence is told where a module was asked; faults stand at the end.
+    Special: if a module does not answer, the command says so; faults stand at the end.
     """
     speech = _modbus if observed.protocol is Protocol.MODBUS_RTU else _dcon
     heard, answer = speech(observed)
@@ -65,7 +65,7 @@ _STATUS: dict[Status | None, tuple[str, str]] = {
 
 
 def readings_text(readings: Sequence[Reading | ChannelReading], write: Callable[[int, float], str]) -> Text:
-    """Tell readings: numbers as `write` makes them of channel and value; the unit once for neighbours that share it."""
+    """Return readings as text: `write` makes it of channel and value; neighbours with one unit share it."""
     text = Text()
     for channel, reading in enumerate(readings):
         value, unit = reading.value, reading.unit

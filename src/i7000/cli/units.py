@@ -54,7 +54,9 @@ def counts(text: str, scale: Scale) -> int:
     if not found or found[2].lower() not in ("", scale.unit.lower()):
         if not scale.unit:
             return integer(text)  # which says what is wrong
-        raise UsageError(f"{text!r} is not a value in {scale.unit}: a decimal number as 2.5, or counts in hex as 0x19")
+        raise UsageError(
+            f"{text!r} is not a value in {scale.unit}: give a decimal number such as 2.5, or counts in hex such as 0x19"
+        )
     exact = Decimal(found[1]) * scale.per_unit
     if exact != int(exact):
         raise UsageError(f"{text} is between two counts: steps of {1 / scale.per_unit:g} {scale.unit}".rstrip())

@@ -1,8 +1,7 @@
 """The live view: the modules as they are now, and below them what was last on the line.
 
 Laws: `View.show` only remembers; a thread of its own draws. Leaving the view writes to the terminal too: where that may
-be stopped, the console has an `Outlet`. On a terminal it takes the alternate screen and gives it back; on what is none
-it writes nothing.
+be stopped, the console has an `Outlet`. On a terminal it uses the alternate screen; elsewhere it writes nothing.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -182,7 +181,7 @@ def _name(state: State) -> Text:
 
 
 def _settings(state: State) -> tuple[str, str, str]:
-    """Tell the protocol, the line, and what frames are checked by: those of now, not those of after power-on."""
+    """Return the protocol, line settings and checksum that are in use, not those after the next power-on."""
     ram = state.ram
     line = _line(ram.line_settings)
     return (
@@ -193,7 +192,7 @@ def _settings(state: State) -> tuple[str, str, str]:
 
 
 def _now(state: State, signals: Signals) -> Text:
-    """Tell what a module is in the middle of, and what its channels read."""
+    """Return what a module is doing, and what its channels read."""
     told = Text()
     if state.eeprom.host_watchdog_timed_out:
         told.append("WATCHDOG TIMED OUT  ", "bold red")
@@ -209,7 +208,7 @@ def _line(settings: LineSettings) -> str:
 
 
 def _readings(state: State, signals: Signals) -> Text:
-    """Tell what the channels of the connecting mode read now, with the digits that the module would send."""
+    """Return the readings of the channels of the connecting mode, with the digits that the module would send."""
     types = state.eeprom.type_codes
     now = readings(state, signals)[: state.profile.channels]
     return readings_text(now, lambda channel, value: f"{value:.{types[channel].decimals}f}")

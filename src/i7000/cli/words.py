@@ -26,11 +26,11 @@ _T = TypeVar("_T")
 
 
 class UsageError(Exception):
-    """What was asked for cannot be understood; the message is for the person who asked."""
+    """Wrong usage of the command line; the message says what to write instead."""
 
 
 def near(word: str, known: list[str]) -> str:
-    """Suggest what was meant, as the end of a message."""
+    """Return the end of a message that suggests what was meant."""
     found = get_close_matches(word, known, n=3, cutoff=0.5)
     return f"; did you mean {' or '.join(found)}?" if found else ""
 
@@ -44,7 +44,7 @@ _TRUTH = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no"
 def truth(text: str) -> bool:
     """Read true or false."""
     if text.lower() not in _TRUTH:
-        raise UsageError(f"{text!r} is neither true nor false: {', '.join(_TRUTH)}")
+        raise UsageError(f"{text!r} is not true or false: give one of {', '.join(_TRUTH)}")
     return _TRUTH[text.lower()]
 
 
@@ -55,7 +55,7 @@ def choice(text: str, choices: Mapping[str, _T]) -> _T:
     1
     """
     if text.lower() not in choices:
-        raise UsageError(f"{text!r} is none of {', '.join(choices)}{near(text.lower(), list(choices))}")
+        raise UsageError(f"{text!r} is not one of {', '.join(choices)}{near(text.lower(), list(choices))}")
     return choices[text.lower()]
 
 
@@ -68,7 +68,7 @@ def member(text: str, kind: type[Enum]) -> Enum:
     """
     names = {one.name.lower(): one for one in kind} | {f"{one.value:d}": one for one in kind}
     if text.lower() not in names:
-        raise UsageError(f"{text!r} is none of {', '.join(names)}")
+        raise UsageError(f"{text!r} is not one of {', '.join(names)}")
     return names[text.lower()]
 
 
@@ -90,7 +90,9 @@ def type_code(text: str) -> TypeCode | int:
         return _TYPES[name]
     if re.fullmatch(r"(?:0X)?[0-9A-F]{2}", name):
         return TypeCode.of(int(name, 16))
-    raise UsageError(f"{text!r} is no type: two hex digits, or one of {', '.join(_TYPES)}{near(name, list(_TYPES))}")
+    raise UsageError(
+        f"{text!r} is not a type: give two hex digits, or one of {', '.join(_TYPES)}{near(name, list(_TYPES))}"
+    )
 
 
 def type_codes(text: str) -> tuple[TypeCode, ...]:
@@ -116,12 +118,12 @@ def quantity(text: str) -> tuple[float, Unit | None]:
     """
     match = _QUANTITY.fullmatch(text.strip())
     if not match or match[2].lower() not in _UNITS or not isfinite(float(match[1])):
-        raise UsageError(f"{text!r} is no quantity: a number, and {', '.join(Unit)} or nothing")
+        raise UsageError(f"{text!r} is not a quantity: give a number, with {', '.join(Unit)} or no unit")
     return float(match[1]), _UNITS[match[2].lower()]
 
 
 def channel_numbers(text: str, count: int, separator: str = ",") -> tuple[int, ...]:
-    """Read which of `count` channels: numbers and ranges, or ``all``.
+    """Read channels of a module with `count`: numbers and ranges, or ``all``.
 
     >>> channel_numbers("0-2,5", 8), channel_numbers("all", 3)
     ((0, 1, 2, 5), (0, 1, 2))
@@ -132,7 +134,7 @@ def channel_numbers(text: str, count: int, separator: str = ",") -> tuple[int, .
     for part in text.split(separator):
         match = re.fullmatch(r"([0-9]{1,3})(?:-([0-9]{1,3}))?", part.strip())
         if not match:
-            raise UsageError(f"{part!r} is no channel: 0..{count - 1}, a range as 0-{count - 1}, or all")
+            raise UsageError(f"{part!r} is not a channel: give 0..{count - 1}, a range such as 0-{count - 1}, or all")
         first, last = int(match[1]), int(match[2] or match[1])
         if not first <= last < count:
             raise UsageError(f"there is no channel {part}: 0..{count - 1}")

@@ -1,9 +1,9 @@
-"""What traffic means, for those who listen.
+"""The listener: what DCON and Modbus RTU traffic between a host and modules means.
 
-`find` finds frames in a line of text, in any spelling; `pieces` those of a log. `hear` and `hear_frame` say what they
-mean, with what is `Known` of each module by then.
+`find` finds the frames in a line of text, in any spelling; `pieces` those of a log. `hear` decodes bytes of a stream,
+`hear_frame` one frame. Both use what is `Known` about each module: what you give, and what the traffic showed before.
 
-It does no I/O: your program reads the file or the port, and hands over lines or bytes.
+This package does no I/O. Your program reads the file or the port, and passes lines or bytes.
 """
 
 from i7000.dissect.dcon import meanings

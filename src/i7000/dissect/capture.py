@@ -1,6 +1,6 @@
 """Capture files -> what was on a serial line: pcap and pcapng, as Wireshark and its tools write them.
 
-Link types: 147 and 148 (USER0 and USER1), whose packets are the bytes of the line alone, and 250 (RTAC_SERIAL), which
+Link types: 147 and 148 (USER0 and USER1), whose packets are only the bytes of the line, and 250 (RTAC_SERIAL), which
 puts a header before them. Directions come from the packet flags of pcapng, or from that header.
 
 Laws: whatever bytes are given, nothing is raised; what cannot be read is a `Damage`. No more than one block is kept.
@@ -13,7 +13,7 @@ from typing import NamedTuple
 __all__ = ["LINK_TYPES", "LONGEST_BLOCK", "Damage", "Packet", "is_capture", "packets"]
 
 LONGEST_BLOCK = 1 << 20
-"""Bytes of a packet or block beyond which the file is not read on."""
+"""The longest packet or block in bytes; reading stops at a longer one."""
 _RTAC_SERIAL = 250
 LINK_TYPES = (147, 148, _RTAC_SERIAL)
 
@@ -22,28 +22,28 @@ class Packet(NamedTuple):
     """Bytes that were on the line at one time."""
 
     number: int
-    """That of the packet in the file, as Wireshark counts."""
+    """The number of the packet in the file, as Wireshark counts."""
     time: float | None
     """Seconds since 1970; None if the file does not say."""
     outbound: bool | None
-    """Whether the computer that captured it sent it; None if the file does not say."""
+    """Whether the capturing computer sent it; None if the file does not say."""
     wire: bytes
     missing: int = 0
     """How many bytes the snap length cut off."""
     note: str = ""
-    """What the interface saw beside bytes, such as a parity error."""
+    """Events of the interface other than bytes, such as a parity error."""
 
 
 class Damage(NamedTuple):
     """Something in the file that cannot be read."""
 
     offset: int
-    """Bytes from the start of the file to where that was noticed."""
+    """The position in the file, in bytes, where the damage was noticed."""
     reason: str
 
 
 class _DamagedFileError(Exception):
-    """What is wrong, where nothing can be read after it."""
+    """Damage after which nothing can be read."""
 
 
 _SECTION = 0x0A0D0D0A
@@ -114,7 +114,7 @@ class _File:
         return taken
 
     def read_whole(self, count: int, what: str) -> bytes:
-        """Return so many bytes, or stop."""
+        """Return so many bytes, or raise `_DamagedFileError`."""
         data = self.read(count)
         if len(data) < count:
             raise _DamagedFileError(f"the file ends in {what}: {len(data)} of {count} bytes")
@@ -139,12 +139,12 @@ def _pcap(file: _File, order: str, fractions: int) -> Iterator[Packet | Damage]:
 
 
 class _Interface(NamedTuple):
-    """What a section of pcapng says of one interface."""
+    """The description of one interface in pcapng."""
 
     link_type: int
     snap_length: int
     ticks: int
-    """In a second."""
+    """Time units in a second."""
     offset: int
     """Seconds to be added to every time."""
 
@@ -271,7 +271,7 @@ _RTAC_NOTES = {5: "data lost", 7: "framing error", 8: "parity error", 9: "break"
 
 
 def _of_line(found: Packet, link_type: int, offset: int) -> Iterator[Packet | Damage]:
-    """Yield what a packet says of the line, if it says anything."""
+    """Yield the bytes and damage of a packet, if it has any."""
     if link_type == _RTAC_SERIAL:
         if len(found.wire) < _RTAC_HEADER:
             yield Damage(offset, f"packet {found.number} is too short for an RTAC header: {len(found.wire)} bytes")

@@ -1,6 +1,6 @@
-"""The likely causes of frames that cannot be decoded: a sentence for each of the classic mistakes.
+"""The likely causes of frames that cannot be decoded: a sentence for each classic mistake.
 
-Laws: a cause is a guess that was tried: what it says the frame would be without the mistake, a codec has decoded.
+Laws: a cause is tried before it is named: a codec has decoded the frame without the mistake.
 """
 
 from collections.abc import Iterator
@@ -24,11 +24,11 @@ __all__ = ["address_notes", "dcon_causes", "modbus_causes", "register_notes"]
 
 _BLANK_FIELD = " " * 7
 _MOST_STRIPPED = 20
-"""Channels whose blanks a log can have stripped."""
+"""The most channels whose blanks a log may have stripped."""
 
 
 def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | None) -> Iterator[str]:
-    """Yield what is likely to be the cause that a DCON frame cannot be read."""
+    """Yield the likely causes why a DCON frame cannot be decoded."""
     body = wire.rstrip(b"\r\n")
     with suppress(DecodeError):
         modbus.unseal(wire)
@@ -99,7 +99,7 @@ _TEXT = frozenset(b"\t\r\n") | frozenset(range(0x20, 0x7F))
 
 
 def _is_noise(wire: bytes) -> bool:
-    """Return whether most of the bytes are none that DCON has."""
+    """Return whether most of the bytes cannot occur in DCON."""
     return sum(byte not in _TEXT for byte in wire) * 2 > len(wire)
 
 
@@ -107,7 +107,7 @@ def _is_noise(wire: bytes) -> bool:
 
 
 def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
-    """Yield what is likely to be the cause that a Modbus RTU frame cannot be read."""
+    """Yield the likely causes why a Modbus RTU frame cannot be decoded."""
     with suppress(UnicodeDecodeError):
         if is_shaped(wire.rstrip(b"\r\n").decode("ascii")):
             yield "the shape of a DCON frame"
@@ -185,7 +185,7 @@ def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
 
 
 def register_notes(meaning: Meaning) -> Iterator[str]:
-    """Yield that an address is likely to be a number of the manual."""
+    """Yield a note if an address looks like a number of the manual."""
     message: Message = meaning.command or meaning.message
     if not isinstance(message, modbus.Request):
         return

@@ -1,4 +1,4 @@
-"""A line in which there is no frame, but nothing else either: what stands there is a damaged one."""
+"""Lines that hold nothing but a damaged frame."""
 
 import re
 
@@ -12,14 +12,14 @@ _DIRECTION = re.compile(
     r"|host|master|slave)[\Wz_]*){0,2}",
     re.IGNORECASE,
 )
-"""What can stand beside a frame: a time, which is crossed out, and words for its direction."""
+"""What may stand beside a frame: a time, which is crossed out, and words for its direction."""
 _LEADING = re.compile(r"[%#$~@!?]|(?<![-=<>])>(?!\s*[%#$~@!?>])")
 """A leading character, and no arrow."""
 _HEADING = bytes(range(256))
 """What stands above the columns of a dump."""
 _FEWEST = 2
 _FEWEST_IN_A_WORD = 5
-"""Bytes that are no plain number, where the protocol is unknown."""
+"""The fewest bytes that are not a plain number, if the protocol is unknown."""
 
 
 def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:

@@ -1,4 +1,4 @@
-"""DCON frames -> what they can mean, with much, little or no knowledge of the module.
+"""DCON frames -> their possible meanings, with complete, partial or no knowledge of the module.
 
 A frame is read with every profile that fits what is known, and a response together with its command, so that what one
 of the two proves is used for the other. Profiles that read frames alike are tried once: see `_COMMAND_FORM` and
@@ -29,7 +29,7 @@ _NOTHING_KNOWN = Known()
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
 _REMEMBERED = 256
-"""Commands, and sets of profiles, of which the work is not done again: who polls sends the same again and again."""
+"""Commands, and sets of profiles, that are cached: a host that polls sends the same again and again."""
 
 _COMMAND_FORM = attrgetter("checksum", "channel_digits", "mask_digits", "refused")
 """What decides how a profile reads a command."""
@@ -55,7 +55,7 @@ class _Found(NamedTuple):
     command: dcon.AnyCommand | None
     group: _Group
     kind: int = 0
-    """Where its class stands among those that were tried."""
+    """The position of its class among those that were tried."""
 
 
 _Attempt = Callable[[bytes], Iterable[_Found]]
@@ -69,7 +69,7 @@ _Read = tuple[_Found, tuple[ChannelReading, ...], DecodeError | None]
 
 
 class DconReader:
-    """Reads frames of a module of which this much is known; it remembers what it needs for the next frame."""
+    """A reader of the frames of a module, with what is known of it; it caches what the next frame needs."""
 
     def __init__(self, known: Known) -> None:
         self._known = known
@@ -189,7 +189,7 @@ def _nearest(faults: list[DecodeError]) -> DecodeError:
 
 
 reader = lru_cache(maxsize=64)(DconReader)
-"""The reader of modules of which this much is known."""
+"""Return the reader for modules with this knowledge."""
 
 
 def meanings(frame: bytes, asked: bytes | None = None, known: Known = _NOTHING_KNOWN) -> tuple[Meaning, ...]:
@@ -210,7 +210,7 @@ def meanings(frame: bytes, asked: bytes | None = None, known: Known = _NOTHING_K
 
 
 def is_command(frame: bytes) -> bool:
-    """Return whether a frame is one that a host sends."""
+    """Return whether a frame is a command, by its leading character."""
     return frame[0] in _COMMAND_LEADS
 
 
@@ -276,7 +276,7 @@ def _alone_attempts(places: _Places) -> Iterator[tuple[int, _Attempt]]:
 
 
 def _response(kinds: _Kinds, frame: bytes) -> Iterator[_Found]:
-    """Read a response without its command: all that it could be."""
+    """Return all that a response without its command could be."""
     profile = kinds[0][1].profile
     body = dcon.unseal(frame, checksum=profile.checksum, leads=_RESPONSE_LEADS).decode("ascii")
     read = False
@@ -297,7 +297,7 @@ def _response(kinds: _Kinds, frame: bytes) -> Iterator[_Found]:
 def _readings(
     message: dcon.Message, command: dcon.AnyCommand | None, profile: Profile, known: Known
 ) -> tuple[tuple[ChannelReading, ...], DecodeError | None]:
-    """Read the fields of a report, of which the types may be unknown, and say why the first misfit is one."""
+    """Return the readings of a report, whose types may be unknown, and why the first misfit is one."""
     types: tuple[TypeCode | None, ...] = profile.type_codes or (known.types if known.partial else None) or ()
     if isinstance(message, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
         if len(types) == len(message.values) and None not in types:  # all at once, which takes a fifth of the time

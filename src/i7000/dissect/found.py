@@ -1,4 +1,4 @@
-"""What is found in a line: a frame of either protocol, or what is left of one."""
+"""The result of a search in a line: a frame of either protocol, or a damaged one."""
 
 from enum import StrEnum
 from typing import NamedTuple
@@ -7,19 +7,19 @@ __all__ = ["Found", "Kind"]
 
 
 class Kind(StrEnum):
-    """What a piece of a line is."""
+    """The kind of a piece of a line."""
 
     DCON = "dcon"
     MODBUS = "modbus"
     DAMAGED = "damaged"
-    """It stands where a frame could, and is none of either protocol."""
+    """Bytes in the place of a frame that are not a valid frame of either protocol."""
 
 
 class Found(NamedTuple):
-    """A frame, or what is left of one, and where in the line it stands."""
+    """A frame, or a damaged one, and its place in the line."""
 
     kind: Kind
     wire: bytes
-    """All of it, with CRC or carriage return; plain text without a carriage return is given one."""
+    """The whole frame with CRC or carriage return; text without a carriage return gets one."""
     start: int
     end: int

@@ -1,4 +1,4 @@
-"""What was heard of a line so far, and what was made of each frame."""
+"""The state of the listener, and what it found out about each frame."""
 
 from enum import StrEnum
 from types import NoneType
@@ -16,16 +16,16 @@ __all__ = ["Asked", "Commands", "Direction", "Heard", "Line", "Place", "Requests
 
 
 class Place(NamedTuple):
-    """Where a frame stands."""
+    """The place of a frame in the traffic."""
 
     number: int
-    """Frames are counted from 1, unless the caller has other numbers."""
+    """The number of the frame, from 1, unless the caller numbers them differently."""
     where: str
-    """In words, for notes on other frames: ``frame 3``."""
+    """The place in words, for notes on other frames: ``frame 3``."""
 
 
 class Direction(StrEnum):
-    """Who sent a frame."""
+    """The direction of a frame: who sent it."""
 
     COMMAND = "command"
     """The host, by DCON."""
@@ -34,12 +34,12 @@ class Direction(StrEnum):
     RESPONSE = "response"
     """A module."""
     ECHO = "echo"
-    """The adapter of the host, which hears what it sends."""
+    """The host's own adapter, which receives what it sends."""
 
 
 @frozen(eq=False)
 class Heard:
-    """What was made of a frame, or of bytes that are none."""
+    """A frame, or bytes that are not one, with their meanings or the error."""
 
     place: Place
     wire: bytes
@@ -47,18 +47,18 @@ class Heard:
     direction: Direction | None = None
     address: int | None = None
     meanings: tuple[Meaning, ...] = ()
-    """What it means; several if it could be any of them."""
+    """Its possible meanings; more than one if the frame is ambiguous."""
     answers: Place | None = None
     """The command or request that it answers."""
     same_as: Place | None = None
     """The frame of which it is an echo."""
     notes: tuple[str, ...] = ()
     error: DecodeError | None = None
-    """What is wrong with it."""
+    """Why it cannot be decoded; None if it can."""
     candidates: tuple[Meaning, ...] = ()
-    """What a frame would mean by itself that is wrong where it stands."""
+    """What a frame that is wrong in its place would mean elsewhere."""
     contradictions: tuple[str, ...] = ()
-    """What of it does not fit what was given or learned before."""
+    """How it contradicts what was given or learned before."""
 
     @property
     def understood(self) -> bool:
@@ -68,13 +68,13 @@ class Heard:
 
 @frozen
 class Asked:
-    """The command or request before."""
+    """The last command or request."""
 
     place: Place
     wire: bytes
     address: int | None
     meaning: Meaning | None = None
-    """What it means by Modbus."""
+    """Its meaning, if it is a Modbus request."""
     echoed: bool = False
 
 
@@ -111,7 +111,7 @@ class Line:
 
     knowledge: Knowledge = field(factory=Knowledge)
     protocol: Protocol | None = None
-    """The only protocol on the line; None: frames of both can come."""
+    """The only protocol on the line; None if both are possible."""
     rest: bytes = b""
     """Bytes that can still become a frame."""
     count: int = 0

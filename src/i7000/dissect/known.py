@@ -1,10 +1,10 @@
-"""What is known of the modules on a line, each fact with where it comes from.
+"""What is known about the modules on a line, each fact with its origin.
 
 A `Known` is what is known of one module; it stands for all profiles that fit. A `Module` is what the caller gave, and
 what the traffic showed; `Knowledge` is all modules.
 
-Laws: what is given beats what was learned, which beats the factory default. A setting that the traffic shows being
-changed beats what was given. Facts never make a combination that no module has.
+Laws: given beats learned, and learned beats the factory default. A setting that the traffic shows being changed beats
+what was given. Facts never make a combination that no module has.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -29,12 +29,12 @@ __all__ = ["Fact", "Knowledge", "Known", "Module", "Origin", "fact_words", "lack
 
 @frozen(cache_hash=True)
 class Known:
-    """What is known of a module; None: unknown."""
+    """The known properties of a module; None if unknown."""
 
     model: Model | None = None
     firmware: Firmware | None = None
     types: tuple[TypeCode | None, ...] | None = None
-    """One for all channels, or one for each. None in it: unknown, as is that of every channel after the last."""
+    """One type for all channels, or one for each. None in it, and a missing one at the end, are unknown."""
     data_format: DataFormat | None = None
     checksum: bool | None = None
     single_ended: bool | None = None
@@ -69,7 +69,7 @@ class Known:
 
     @property
     def partial(self) -> bool:
-        """Whether the types of some channels only are known."""
+        """Whether only some channels have a known type."""
         return self.types is not None and None in self.types
 
     @cached_property
@@ -191,7 +191,7 @@ def _either(known: bool | None) -> tuple[bool, ...]:  # noqa: FBT001 - it is the
 
 
 class Origin(StrEnum):
-    """Where a fact comes from."""
+    """The origin of a fact."""
 
     GIVEN = "given"
     """The caller said so."""
@@ -203,14 +203,14 @@ class Origin(StrEnum):
 
 @frozen
 class Fact:
-    """One thing that is known of a module."""
+    """A fact about a module."""
 
     name: str
     """An attribute of `Known`, or ``name``, ``mask``, ``line_settings``."""
     value: Any
     origin: Origin = Origin.LEARNED
     where: str = ""
-    """The frame that showed it, from which on it holds: ``frame 3``."""
+    """The frame that showed it, and from which on it holds: ``frame 3``."""
     changed: bool = False
     """Whether the frame accepted a change, so that what was given no longer holds."""
 
@@ -251,7 +251,7 @@ class Module:
 
     @cached_property
     def known(self) -> Known:
-        """Everything together."""
+        """Given and learned facts together."""
         learned = {fact.name: fact.value for fact in self.learned}
         if "model" in learned or self.given.model:
             learned.pop("models", None)
@@ -291,7 +291,7 @@ class Knowledge:
     """
 
     others: Module = field(factory=Module)
-    """What is known of modules that are not in `modules`."""
+    """The knowledge of every module that is not in `modules`."""
     modules: Mapping[int, Module] = field(factory=dict, converter=_unchanging)
     """Modules by address."""
 

@@ -1,4 +1,4 @@
-"""What an exchange shows of a module: the answer to a question about a setting, or a setting that was accepted.
+"""The facts that an exchange shows about a module: a setting that was read, or a change that was accepted.
 
 One row a command: the facts, from the command and its response.
 """
@@ -85,7 +85,7 @@ _NAMING = ("name", "firmware", "models")
 
 
 def _contradiction(module: Module, before: Fact | None, fact: Fact) -> str | None:
-    """Say what an answer contradicts; a change that was accepted contradicts nothing."""
+    """Return what a response contradicts; an accepted change contradicts nothing."""
     if fact.changed:
         return None
     model = module.given.model
@@ -124,7 +124,7 @@ def _impossible(module: Module, fact: Fact) -> str:
 
 
 def with_facts(meaning: Meaning, module: Module) -> Meaning:
-    """Say of the facts that a meaning rests on which frame showed them."""
+    """Return a meaning whose facts name the frame that showed them."""
     learned = {fact.name: fact for fact in module.learned}
     facts = tuple(learned.get(fact.name, fact) for fact in meaning.facts)
     return meaning if facts == meaning.facts else evolve(meaning, facts=facts)
@@ -136,7 +136,7 @@ _Pairs = Iterator[tuple[str, Any]]
 
 
 def _facts_of(meaning: Meaning, known: Known, where: str) -> Iterator[Fact]:
-    """Yield the facts that a response shows together with its command; `where` it stands."""
+    """Yield the facts that a response shows together with its command; `where` is its place."""
     command, response = meaning.command, meaning.message
     if command is None or isinstance(response, dcon.Refused | modbus.ExceptionResponse):
         return
@@ -250,7 +250,7 @@ _READ: Mapping[type | None, _Row] = {
     modbus.ReadTypeCode: lambda command, response, known: _channel_type(command.channel, response.type_code, known),
     modbus.ReadChannelMask: lambda _, response, __: iter((("mask", response.mask),)),
 }
-"""Questions about settings."""
+"""Commands that read settings."""
 _SET: Mapping[type | None, _Row] = {
     dcon.SetConfiguration: lambda command, _, known: _configuration(command, known),
     dcon.SetChannelTypeCode: lambda command, _, known: _channel_type(command.channel, command.type_code, known),
@@ -260,7 +260,7 @@ _SET: Mapping[type | None, _Row] = {
     modbus.SetTypeCode: lambda command, _, known: _channel_type(command.channel, command.type_code, known),
     modbus.SetChannelMask: lambda command, _, __: iter((("mask", command.mask),)),
 }
-"""Changes of settings, which hold once they are accepted."""
+"""Commands that change settings, from the moment they are accepted."""
 
 # --- registers --------------------------------------------------------------------------------------------------------
 
@@ -277,7 +277,7 @@ def _sent(meaning: Meaning) -> tuple[Item, ...]:
 
 
 def _of_item(item: Item, known: Known) -> _Pairs:
-    """Yield what a register shows that has a value."""
+    """Yield the facts that a register with a value shows."""
     if item.value is None or item.name not in _REGISTERS or known.model is None:
         return
     yield from _REGISTERS[item.name](item, known)

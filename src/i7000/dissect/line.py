@@ -1,10 +1,10 @@
-"""The listener: bytes or frames of a line, one after the other -> what each of them means.
+"""The listener: bytes or frames of a line, one after the other -> their meanings.
 
-A `Line` is what was heard so far, and what is known of each module by that. `hear` takes bytes in any pieces,
-`hear_frame` a frame that stands by itself, as in a log.
+A `Line` is the state: what was heard so far, and what is known about each module from it. `hear` takes bytes in any
+pieces, `hear_frame` a single frame, as in a log.
 
-Laws: every byte that is heard is in exactly one `Heard`, or in `Line.rest`. A frame never changes what was said of
-those before it. No bytes raise.
+Laws: every byte is in exactly one `Heard`, or in `Line.rest`. A frame never changes the result of an earlier one. No
+bytes raise.
 """
 
 from i7000.arguments import as_bytes, check_type

@@ -105,7 +105,7 @@ def _answers(module: Module, wire: bytes, asked: Asked) -> bool:
 
 
 class _Read(NamedTuple):
-    """What a frame is by DCON, wherever it stands."""
+    """A DCON frame, wherever it stands."""
 
     meanings: tuple[Meaning, ...] = ()
     error: DecodeError | None = None

@@ -21,7 +21,7 @@ _NOTHING = ModbusRead(None)
 _READERS = 64
 """Combinations of what is known of a module, of which the readers are kept."""
 _ANOTHER = (Fault.ADDRESS, Fault.FUNCTION, Fault.SUB_FUNCTION)
-"""Faults that say that something else was asked for."""
+"""Faults of a response to another request."""
 
 
 @lru_cache(maxsize=_READERS)

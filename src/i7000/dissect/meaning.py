@@ -24,9 +24,9 @@ class Field(NamedTuple):
 
     name: str
     value: Any
-    """As the message has it."""
+    """The value in the message."""
     text: str
-    """In words, with its unit."""
+    """The value in words, with its unit."""
 
 
 class ChannelReading(NamedTuple):
@@ -35,7 +35,7 @@ class ChannelReading(NamedTuple):
     channel: int | None
     text: str
     status: Status | None
-    """None: a number of an unknown type, or one that no module of the type writes."""
+    """None for a number of an unknown type, or one that the type cannot have."""
     type_code: TypeCode | None
     value: float | None = None
     unit: Unit | None = None
@@ -47,13 +47,13 @@ class Item(NamedTuple):
     number: str
     """The number of the manual: 40489."""
     name: str | None
-    """None: the map does not have it, or the model is unknown."""
+    """None if the map does not have it, or the model is unknown."""
     channel: int | None
     value: Any
-    """In units; as sent where it has no name; None: the message has no values."""
+    """The value in its unit; as sent if it has no name; None if the message has no values."""
     unit: str | None
     text: str | None
-    """The value in words; of a reading the word in hex."""
+    """The value in words; for a reading, the word in hex."""
     reading: Reading | None = None
     type_code: TypeCode | None = None
 
@@ -97,7 +97,7 @@ class Meaning:
     items: tuple[Item, ...] = ()
     """The coils and registers that it touches."""
     facts: tuple[Fact, ...] = ()
-    """What its readings rest on: ``types`` and the data format."""
+    """The facts that its readings depend on: ``types`` and the data format."""
     notes: tuple[str, ...] = ()
     misfit: DecodeError | None = None
     """Why the first reading without a value cannot be one of its type."""

@@ -1,6 +1,6 @@
-"""Modbus RTU frames -> what they can mean, with much, little or no knowledge of the module.
+"""Modbus RTU frames -> their possible meanings, with complete, partial or no knowledge of the module.
 
-A frame does not have its direction: it is read as a request, as the response to a request, and as a response by itself.
+A frame does not show its direction: it is read as a request, as the response to a request, and as a response by itself.
 
 Laws: every meaning is one that a codec of `i7000.modbus` found, with each profile that fits what is known.
 """
@@ -27,14 +27,14 @@ _FORM = attrgetter("channels", "mask_digits")
 
 
 class ModbusRead(NamedTuple):
-    """What came of reading a frame: a meaning, or what is wrong."""
+    """The result of reading a frame: a meaning, or an error."""
 
     meaning: Meaning | None
     error: DecodeError | None = None
 
 
 class ModbusReader:
-    """Reads frames of a module of which this much is known; it remembers what it needs for the next frame.
+    """A reader of the frames of a module, with what is known of it; it caches what the next frame needs.
 
     Errors: `EncodeError` if no module that speaks Modbus is like that.
     """

@@ -24,7 +24,7 @@ _AREAS: dict[str, Area] = {
     "0F": Area.COIL,
     "10": Area.HOLDING_REGISTER,
 }
-"""What a function is about."""
+"""The area that a function reads or writes."""
 _LONG = (Kind.UINT32, Kind.RECORD)
 """Kinds of more than one word."""
 
@@ -41,7 +41,7 @@ class _Place(NamedTuple):
     channel: int | None
     """The first channel."""
     empty: tuple[Item, ...]
-    """What is told if nothing is sent."""
+    """The items to show if no values are sent."""
     part: str
     """Which word of a longer number it is, if that is all there is."""
 
@@ -49,7 +49,7 @@ class _Place(NamedTuple):
 def items(message: modbus.Message, request: modbus.Request[Any] | None, profile: Profile | None) -> Iterator[Item]:
     """Yield the registers that a message touches, by name if the profile is known.
 
-    Special: a response without its request does not tell which they are.
+    Special: without its request, a response does not show which they are.
     """
     area = _AREAS.get(message.pdu[:2])
     place = request if isinstance(message, modbus.Items) else message
@@ -65,7 +65,7 @@ def items(message: modbus.Message, request: modbus.Request[Any] | None, profile:
 
 
 def _values(message: modbus.Message) -> tuple[int, ...]:
-    """What a message sends to registers, or of them."""
+    """Return the values that a message carries to or from registers."""
     if hasattr(message, "value"):
         return (message.value,)
     return getattr(message, "values", ())
@@ -91,7 +91,7 @@ def _places(profile: Profile | None, area: Area, start: int, count: int) -> tupl
 
 
 def _place(profile: Profile | None, row: Register, address: int, at: int, left: int) -> _Place:
-    """Choose what is told together of the `left` items from `address` on."""
+    """Return what is shown together of the `left` items from `address` on."""
     offset = address - row.address
     used = told = 1
     if row.kind in _LONG and not offset and row.count <= left:

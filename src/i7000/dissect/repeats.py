@@ -1,6 +1,6 @@
 """Frames that a logger printed twice: ``recv: 01 83 ..`` and then ``Processing: 01 83 ..``, or in hex and as text.
 
-The bytes of both lines are the same; what tells a repeat from a second frame on the wire is the words before them:
+The bytes of both lines are the same. The words before them distinguish a repeat from a second frame on the wire:
 
 * The second line has no direction and a word that the first, with a direction, has not: ``recv:``, ``Processing:``.
 * Both have the same direction, and the second has a word for what is done with a frame: ``RX:``, ``RX parsed:``.

@@ -1,7 +1,7 @@
 """The shapes that DCON commands and responses have, whatever the model (manual 2).
 
 A shape is what a syntax says of the characters: which are literal, how many there are, what each can be. It is enough
-to tell a frame from a sentence; what a frame means is decided by the codecs.
+to distinguish a frame from a sentence; the codecs decide what a frame means.
 """
 
 import re

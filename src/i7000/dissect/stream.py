@@ -15,20 +15,20 @@ __all__ = ["Span", "looks_like", "split"]
 
 
 class Span(NamedTuple):
-    """A frame, or bytes that are none."""
+    """A frame, or noise."""
 
     protocol: Protocol
-    """Of noise: the one that it looks like."""
+    """Of noise, the protocol that it resembles."""
     wire: bytes
     fault: Fault | None = None
-    """Why it is none."""
+    """Why it is noise; None for a frame."""
 
 
 _TEXT = frozenset(b"\t\r\n") | frozenset(range(0x20, 0x7F))
 
 
 def looks_like(wire: bytes) -> Protocol:
-    """Return the protocol that bytes are meant to be of: DCON is text."""
+    """Return the protocol that bytes resemble: DCON is text."""
     return Protocol.DCON if _TEXT.issuperset(wire) else Protocol.MODBUS_RTU
 
 

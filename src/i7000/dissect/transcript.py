@@ -30,7 +30,7 @@ class Piece(NamedTuple):
     text: str
     """What was written: a part of a line, a line, or several."""
     kind: Kind | None
-    """None: there is no frame."""
+    """None if there is no frame."""
     wire: bytes
     same_as: int | None = None
     """The line before, if it has the same frame and a logger printed that twice; see `i7000.dissect.repeats`."""
