@@ -2,7 +2,7 @@
 
 Parts, from the outside:
 
-* `app` has the commands, each in a module of its own: `decode`, `encode`, `commands`, `register_list`, `errata`,
+* `app` has the commands, each in a module of its own: `decode`, `encode`, `commands`, `registers`, `errata`,
   `simulate`. `options` has what several of them take.
 * For `decode`: `source` reads lines and bytes as they arrive, `readers` gives them to `i7000.dissect`, `frame_text`
   makes lines for people of what that returns, `records` JSON, `schema` describes the JSON.

@@ -11,7 +11,7 @@ from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
-from i7000.cli.register_list import registers
+from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
