@@ -26,43 +26,6 @@ LONGEST_SENTENCE = 40
 
 Documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 
-# --- files that are still to be mended: delete each with its faults ---
-UNMENDED = frozenset(
-    {
-        "i7000/cli/decode.py",
-        "i7000/cli/explain.py",
-        "i7000/cli/explain_text.py",
-        "i7000/cli/facts.py",
-        "i7000/cli/message.py",
-        "i7000/cli/module.py",
-        "i7000/cli/numbers.py",
-        "i7000/cli/signals.py",
-        "i7000/cli/simulation.py",
-        "i7000/cli/source.py",
-        "i7000/cli/text.py",
-        "i7000/cli/traffic.py",
-        "i7000/cli/view.py",
-        "i7000/cli/words.py",
-        "i7000/dissect/causes.py",
-        "i7000/dissect/finder.py",
-        "i7000/dissect/found.py",
-        "i7000/dissect/heard.py",
-        "i7000/dissect/in_bytes.py",
-        "i7000/dissect/in_text.py",
-        "i7000/dissect/known.py",
-        "i7000/dissect/learn.py",
-        "i7000/dissect/line.py",
-        "i7000/dissect/line_dcon.py",
-        "i7000/dissect/line_modbus.py",
-        "i7000/dissect/registers.py",
-        "i7000/dissect/repeats.py",
-        "i7000/dissect/spelling.py",
-        "i7000/dissect/stream.py",
-        "i7000/dissect/transcript.py",
-    }
-)
-# ---
-
 
 def _documented(tree: ast.Module) -> Iterator[tuple[Documented, str]]:
     for node in ast.walk(tree):
@@ -108,9 +71,7 @@ def _faults(source: str) -> Iterator[str]:
 
 
 @pytest.mark.parametrize("name", [path.relative_to(SRC).as_posix() for path in FILES])
-def test_the_texts_of_a_source_file_are_in_plain_english(name: str, request: pytest.FixtureRequest) -> None:
-    if name in UNMENDED:
-        request.applymarker(pytest.mark.xfail(reason="still to be mended", strict=False))
+def test_the_texts_of_a_source_file_are_in_plain_english(name: str) -> None:
     path = SRC / name
 
     assert not list(_faults(path.read_text(encoding="utf-8")))

@@ -68,7 +68,7 @@ def commands_named(name: str, kinds: Sequence[AnyCommand]) -> list[AnyCommand]:
 
 
 def _syntax(kind: AnyCommand) -> tuple[str, ...]:
-    """The syntax of a command of DCON."""
+    """Return the syntax of a command of DCON, and nothing for a request by Modbus."""
     return () if issubclass(kind, modbus.Request) else (kind.syntax,)
 
 
@@ -114,7 +114,7 @@ def command_explained(kind: AnyCommand, models: list[str]) -> Record:
 
 
 def _parameters(kind: type[Message], rows: list[Record]) -> list[Record]:
-    """The fields of a message: what the tables say, and what the class does."""
+    """Return the fields of a message, as the tables and the class describe them."""
     stated = {row["name"]: row for row in rows}
     return [
         _parameter(name, field.type.__metadata__[0], stated.get(name, {})) for name, field in parts_of(kind).items()
@@ -132,7 +132,7 @@ def _parameter(name: str, part: Any, row: Record) -> Record:  # noqa: ANN401 - a
 
 
 def _values(kind: Any) -> dict[str, str]:  # noqa: ANN401 - the type of the values of a field
-    """What the parts of a byte of settings add to it; the meaning of other codes is in the tables."""
+    """Return what each part of a byte of settings adds to it; the meaning of other codes is in the tables."""
     if kind is LineSettings:
         rates = {f"{rate:02X}": f"{rate.bits_per_second} baud" for rate in BaudRate}
         return rates | {f"{form << 6:02X}": f"added for {form.name}" for form in CharacterFormat}
@@ -209,7 +209,7 @@ def _add(found: list[Record], row: modbus.Register, model: Model) -> None:
 
 
 def _functions(row: modbus.Register) -> list[str]:
-    """The functions that read or write a row."""
+    """Return the functions that read or write a row."""
     able = {"R": (True,), "W": (False,), "R/W": (True, False)}[row.access.value]
     return [kind.pdu[:2] for kind, area in AREAS.items() if area is row.area and is_reading(kind) in able]
 

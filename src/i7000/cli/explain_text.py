@@ -42,7 +42,7 @@ def _errata(record: Record, shown: set[str]) -> Iterator[Line]:
 
 
 def command_text(record: Record, shown: set[str]) -> Iterator[Line]:
-    """Return a command or request in full; errata in `shown` were printed before, and those printed here are added."""
+    """Yield a command or request in full; errata in `shown` were printed before, and those printed here are added."""
     dcon = record["protocol"] == "dcon"
     if shown:
         yield []
@@ -89,7 +89,7 @@ def _range(parameter: Record) -> str:
 
 
 def _models(record: Record) -> str:
-    """The models that have a command, those that have it only from some firmware on with that."""
+    """Return the models that have a command, each with the firmware that it needs if older firmware lacks it."""
     since = [f"{model} from {firmware}" for model, firmware in record["models"].items() if firmware]
     named = models_words(map(Model, record["models"]), record["section"])
     return f"{named}: {', '.join(since)}" if since and " from " not in named else named
@@ -120,7 +120,7 @@ def _frame(wire: str, *, dcon: bool) -> str:
 
 
 def register_text(record: Record, shown: set[str]) -> Iterator[Line]:
-    """A row of the maps in full; `shown` as for `command_text`."""
+    """Yield a row of the maps in full; `shown` as for `command_text`."""
     if shown:
         yield []
     shown.add(record["name"])
@@ -155,12 +155,12 @@ def _limits(record: Record) -> str:
 
 
 def erratum_lines(record: Record) -> Iterator[Line]:
-    """Return the line of an erratum in a list: its id and subject."""
+    """Yield the line of an erratum in a list: its id and subject."""
     yield from _labelled(f"{record['id']:<4} {record['sections'][0] if record['sections'] else ''}", record["what"])
 
 
 def erratum_text(record: Record) -> Iterator[Line]:
-    """Return an erratum in full."""
+    """Yield an erratum in full."""
     yield _heading(record["id"], "", record["sections"])
     yield from _labelled("what", record["what"])
     yield from _labelled("reading", record["reading"])

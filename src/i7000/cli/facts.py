@@ -20,17 +20,17 @@ def _read(*path: str) -> Any:  # noqa: ANN401 - a file
 
 @cache
 def errata() -> dict[str, Record]:
-    """The errata by id."""
+    """Return the errata by id."""
     return {row["id"]: row for row in _read("errata.json")["rows"]}
 
 
 def errata_about(ids: list[str]) -> list[Record]:
-    """The errata with these ids."""
+    """Return the errata with these ids."""
     return [errata()[name] for name in ids]
 
 
 def command_row(kind: type[Message]) -> Record:
-    """The row of a command or request."""
+    """Return the row of a command or request."""
     files = ("modbus_functions", "module_settings") if issubclass(kind, modbus.Message) else ("dcon_commands",)
     rows = (row for file in files for row in _read("tables", f"{file}.json")["rows"])
     found: Record = next(row for row in rows if row["name"] == kind.__name__)
@@ -42,7 +42,7 @@ def _files(*folder: str) -> Iterator[str]:
 
 
 def vectors_of(kind: Any) -> list[Record]:  # noqa: ANN401 - a command or request
-    """The vectors with a command or request, in the order of its file."""
+    """Return the vectors with a command or request, in the order of its file."""
     side, folder, prefix = "command", "dcon", f"{kind.section}-"
     if issubclass(kind, modbus.Message):
         sub_function = "" if kind.sub_function is None else f"{kind.sub_function:02X}-"
@@ -60,7 +60,7 @@ def _map(model: str) -> Record:
 
 
 def register_row(row: Register, model: str) -> Record:
-    """The row of the map of a model for one of its registers."""
+    """Return the row of the map of a model for one of its registers."""
     area = Area(row.area).name.lower()
     found: Record = next(it for it in _map(model)["rows"] if (it["name"], it["area"]) == (row.name, area))
     return found | {"section": _map(model)["section"]}

@@ -1,6 +1,6 @@
 """A simulation: its options, how it runs and how it ends.
 
-Laws: what some options need and others do not is imported when it is asked for.
+Laws: what only some options need is imported when one of them is used.
 """
 
 import asyncio

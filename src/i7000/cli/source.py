@@ -102,7 +102,7 @@ class Lines:
             yield number, line[at : at + LONGEST_LINE]
 
     def _is_whole(self, line: bytes) -> bool:
-        """Whether the last line of a chunk is; a CR may be the first half of a CR LF."""
+        """Return whether the last line of a chunk is complete; a CR may be the first half of a CR LF."""
         if line.endswith(b"\r") and self._live:
             self._wait()
             return not is_readable(self._stream)

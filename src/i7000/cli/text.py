@@ -109,12 +109,12 @@ class Printer:
 
 
 def _is_styled(file: TextIO | None) -> bool:
-    """Whether a file is a terminal, or may be one to rich, which looks at more of the environment."""
+    """Return whether a file is a terminal, or may be one to rich, which looks at more of the environment."""
     return file is not None and (file.isatty() or any(map(os.environ.get, ("FORCE_COLOR", "TTY_COMPATIBLE"))))
 
 
 def _plain(line: Line, file: TextIO | None) -> str:
-    """A line without styles, in characters that can be written to a file."""
+    """Return a line without styles, in characters that can be written to a file."""
     text = escaped("".join([text for text, _ in line]))
     if text.isascii() or file is None:
         return text
@@ -180,7 +180,7 @@ def _scope(models: tuple[str, ...], section: str) -> str:
 
 
 def command_lines(record: Record) -> Iterator[Line]:
-    """One command, in a line."""
+    """Yield the line of a command."""
     yield [
         (f"{record['section']:<5} ", ""),
         (f"{record['syntax']:<12} ", "bold"),
@@ -192,7 +192,7 @@ def command_lines(record: Record) -> Iterator[Line]:
 
 
 def request_lines(record: Record) -> Iterator[Line]:
-    """One request by Modbus, in a line."""
+    """Yield the line of a request by Modbus."""
     yield [
         (f"{record['section']:<7} ", ""),
         (f"{record['syntax']:<47} ", "bold"),
@@ -203,7 +203,7 @@ def request_lines(record: Record) -> Iterator[Line]:
 
 
 def register_lines(record: Record) -> Iterator[Line]:
-    """One row of an address map, in a line."""
+    """Yield the line of a row of an address map."""
     numbers = record["number"] + (f"..{record['last_number']}" if record["count"] > 1 else "")
     unit = f"{record['scale']:g} {record['unit']}" if record["scale"] else ""
     limits = "" if record["minimum"] is None else f"{record['minimum']}..{record['maximum']}"

@@ -85,7 +85,7 @@ _Pieces = tuple[Text, Text | None]
 
 
 def _meant(text: str, name: str, *details: Text) -> Text:
-    """A frame, what it is, and what it says."""
+    """Return a frame, its name and its details in a line."""
     meaning = Text("; ").join(detail for detail in details if detail)
     return Text("  ").join((Text(text, "bold"), *filter(None, (Text(name, "cyan"), meaning))))
 

@@ -155,7 +155,7 @@ def _meant(reader: ModbusReader, body: bytes) -> str | None:
 
 
 def _cut(reader: ModbusReader, wire: bytes) -> str | None:
-    """Say which message a frame without its last byte is, if it is one."""
+    """Return a note that a frame is a message without its last byte, if it is one."""
     if len(wire) < modbus.SHORTEST_FRAME:
         return None
     low, high = modbus.seal(wire[:-1])[-2:]

@@ -152,7 +152,7 @@ def _without_column(text: str, run: Run) -> Run:
 
 
 def _longest_first(found: list[Found]) -> list[Found]:
-    """Of as long ones the first that was read stays first."""
+    """Sort frames by length, the longest first; those of one length stay in the order in which they were read."""
     return sorted(found, key=lambda found: len(found.wire), reverse=True)
 
 

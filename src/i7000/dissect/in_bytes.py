@@ -126,7 +126,7 @@ _DECORATION = pattern(r"[$%=&]|0[xX]|[hH]\b")
 
 
 def _styles(text: str, run: Run) -> list[_Style]:
-    """Of every byte but the first, how it is set off."""
+    """Return how each byte is set off from the one before it, from the second byte on."""
     decorations = [""] * len(run)
     if _DECORATION.search(text, max(0, run[0].start - 1), run[-1].end):
         decorations = [_decoration(text, byte) for byte in run]
@@ -138,7 +138,7 @@ def _styles(text: str, run: Run) -> list[_Style]:
 
 
 def _decoration(text: str, byte: Byte) -> str:
-    """What marks a byte as hex: a part of its word, or else the character before it."""
+    """Return what marks a byte as hex: a part of its word, or else the character before it."""
     mark = _DECORATION.search(text, byte.start, byte.end) or _DECORATION.match(text, max(0, byte.start - 1))
     return mark[0] if mark else ""
 
@@ -185,7 +185,7 @@ def _grouped(style: _Style) -> _Style:
 
 @cache
 def _functions() -> frozenset[int]:
-    """All function codes, of requests and of exceptions."""
+    """Return all function codes, of requests and of exceptions."""
     return frozenset(request.function | bit for request in modbus.REQUESTS for bit in (0, 0x80))
 
 

@@ -42,7 +42,7 @@ def in_text(text: str) -> Iterator[Found]:
 
 
 def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
-    """Where the frame that starts here ends, and what it is; None if there is none."""
+    """Return the kind of the frame that starts here, and where it ends; the kind is None if no frame starts here."""
     if characters[start] == ">":
         found = report().match(characters, start)
         if found:
@@ -59,7 +59,7 @@ def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
 
 
 def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:
-    """Where a frame can end: at its carriage return, or before what closes a word; and where a word can be cut."""
+    """Yield where a frame can end: at its carriage return, before what closes a word, and where a word can be cut."""
     word = _WORD.match(characters, start)
     longest = word.end() if word else start + 1
     if written is None:

@@ -337,7 +337,7 @@ class Knowledge:
 
 
 def lacking_type(known: Known, code: int | None) -> str | None:
-    """Say that a module cannot have a type; None if it can, or if its model is unknown.
+    """Return a note that a module cannot have a type; None if it can, or if its model is unknown.
 
     >>> lacking_type(Known(Model.I_7018), 0x08)
     'type 08, -10..10 V: none that an I-7018 can have'

@@ -113,7 +113,7 @@ def _agree(one: Fact, other: Fact) -> bool:
 
 
 def _impossible(module: Module, fact: Fact) -> str:
-    """Say that no module has what was shown together with what is known."""
+    """Return a note that no module has what was shown together with what is known."""
     known = module.known
     lacking = fact.name == "types" and next(filter(None, (lacking_type(known, code) for code in fact.value)), None)
     if lacking:
@@ -174,13 +174,13 @@ _MIXED = 2
 
 
 def _types(code: TypeCode | int) -> _Pairs:
-    """The type of all channels, if it is one."""
+    """Yield the type of all channels, if the code is defined."""
     if isinstance(code, TypeCode):
         yield "types", (code,)
 
 
 def _channel_type(channel: int, code: TypeCode | int, known: Known) -> _Pairs:
-    """The types of all channels, that of one of them being shown."""
+    """Yield the types of all channels, from the type of one of them and those that are known."""
     if not isinstance(code, TypeCode):
         return
     types = known.types or ()
@@ -221,7 +221,7 @@ def _series(_: Any, response: modbus.ModuleName, known: Known) -> _Pairs:  # noq
 
 
 def _models(named: Iterable[Model], known: Known) -> _Pairs:
-    """The models that have a name, and are among those that are known if any of them is."""
+    """Yield the named models, or only those of them that are known to be possible if there are any."""
     models = tuple(named)
     if models:
         yield "models", tuple(model for model in models if model in known.models) or models

@@ -21,7 +21,7 @@ __all__ = ["flush", "hear", "hear_frame"]
 def hear(
     line: Line, data: bytes, where: str | None = None, *, sent: bool | None = None
 ) -> tuple[Line, tuple[Heard, ...]]:
-    r"""Hear the next bytes of a stream, in any pieces; what can still become a frame is kept in `Line.rest`.
+    r"""Read the next bytes of a stream, in any pieces; what can still become a frame is kept in `Line.rest`.
 
     Shape: `where` the bytes stand, for notes on later frames, which count them unless it is given; `sent`: whether the
         host sent them, None if that is unknown. Flush where the direction changes.
@@ -36,7 +36,7 @@ def hear(
 
 
 def flush(line: Line, where: str | None = None, *, sent: bool | None = None) -> tuple[Line, tuple[Heard, ...]]:
-    """Hear that nothing more comes for now: what is in `Line.rest` is a frame, or none."""
+    """Read what is in `Line.rest`, a frame or not, because nothing more comes for now."""
     check_type("line", line, Line)
     return _hear_split(line, line.rest, where, sent=sent, last=True)
 
@@ -62,7 +62,7 @@ def _hear_split(
 def hear_frame(
     line: Line, wire: bytes, protocol: Protocol, place: Place | None = None, *, sent: bool | None = None
 ) -> tuple[Line, Heard]:
-    r"""Hear a frame, or bytes that stand where one should.
+    r"""Read a frame, or bytes that stand where one should.
 
     Shape: `place` of the frame; it has the next number if that is not given. `sent`: whether the host sent it, None if
         that is unknown.

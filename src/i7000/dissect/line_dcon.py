@@ -24,7 +24,7 @@ _REMEMBERED = 512
 
 
 def hear_dcon(line: Line, wire: bytes, place: Place, sent: bool | None) -> tuple[Line, Heard]:  # noqa: FBT001
-    """Hear a frame, which is a command or a response by its leading character; `sent`: whether the host sent it."""
+    """Read a frame, which is a command or a response by its leading character; `sent`: whether the host sent it."""
     command = is_command(wire)
     line, heard = (_hear_command if command else _hear_response)(line, wire, place)
     if sent is None or sent is command:
@@ -229,7 +229,7 @@ def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[tuple[str
 
 
 def _lacking(meaning: Meaning, known: Known) -> str | None:
-    """Say that a message has a type that the model does not have."""
+    """Return a note that a message has a type that the model does not have; None otherwise."""
     lacking = lacking_type(known, getattr(meaning.message, "type_code", None))
     if lacking is None:
         return None

@@ -35,7 +35,7 @@ def _modbus_reader(known: Known) -> tuple[ModbusReader, tuple[str, ...]]:
 
 
 def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tuple[Line, Heard]:  # noqa: FBT001
-    """Hear a frame, which can be a request, a response or an echo; `sent`: whether the host sent it.
+    """Read a frame, which can be a request, a response or an echo; `sent`: whether the host sent it.
 
     Special: what is the same as the request before it is its response where it can be, unless the line is known to
         echo; a line is known to echo when a request came twice that cannot be its own response.

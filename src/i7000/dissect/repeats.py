@@ -44,13 +44,13 @@ def is_repeat(first: str, second: str) -> bool:
 
 
 def _parted(line: str) -> tuple[str, str]:
-    """What stands before the frame of a line, and how it is spelled."""
+    """Return what stands before the frame of a line, and how the frame is spelled."""
     found = find(line)
     return (line[: found[0].start], line[found[0].start : found[0].end]) if found else (line, "")
 
 
 def _direction(before: str) -> bool | None:
-    """Whether the words before a frame say that it was sent; None if they say nothing, or both."""
+    """Return whether the words before a frame show that it was sent; None if they show neither direction, or both."""
     is_out, is_in = bool(_OUT.search(before)), bool(_IN.search(before))
     return is_out if is_out != is_in else None
 

@@ -52,7 +52,7 @@ _NUMBERS = pattern(
     rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
     re.DOTALL,
 )
-"""Dates, times, decimal fractions, and numbers with a unit: what looks like bytes and is none.
+"""Dates, times, decimal fractions, and numbers with a unit: they look like bytes, and are not.
 
 All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
 """

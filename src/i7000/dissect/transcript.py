@@ -131,7 +131,7 @@ def _begins(wire: bytes) -> bool:
 
 
 def _whole(parts: list[_Part]) -> int | None:
-    """From which of the parts on they are whole frames; None if they are not."""
+    """Return the index of the part from which on the parts are whole frames; None if there is no such part."""
     begins = {0: 0}
     for number, part in enumerate(parts):
         begins[max(begins) + len(part.wire)] = number + 1
