@@ -57,16 +57,8 @@ def logged(*lines: str, known: Known = Known(), protocol: Protocol | None = None
 
 
 def known_of(vector: Record) -> Known:
-    """What the profile of a vector by DCON says."""
-    profile = profile_of(vector["profile"])
-    return Known(
-        profile.model,
-        profile.firmware,
-        profile.type_codes,
-        profile.data_format,
-        profile.checksum,
-        profile.single_ended,
-    )
+    """What the profile of a vector says."""
+    return Known.of(profile_of(vector["profile"]))
 
 
 def refusal(read: Callable[[], object]) -> str:

@@ -12,8 +12,8 @@ from i7000.dissect import Known
 from i7000.modbus import seal
 from tests.each import each
 from tests.spec.lint import Record, rows
-from tests.terminal import Run, logged
-from tests.vectors import modbus_message_of, modbus_vectors, profile_of, written_modbus_vectors
+from tests.terminal import Run, known_of, logged
+from tests.vectors import modbus_message_of, modbus_vectors, written_modbus_vectors
 
 ASK = "01 04 00 00 00 08 F1 CC"
 FRAME = bytes.fromhex(ASK)
@@ -32,17 +32,6 @@ def texts(record: Record) -> list[tuple[str, str | None, str | None]]:
 
 
 # --- decode: the vectors ----------------------------------------------------------------------------------------------
-
-
-def known_of(vector: Record) -> Known:
-    profile = profile_of(vector["profile"])
-    return Known(
-        profile.model,
-        profile.firmware,
-        profile.type_codes,
-        single_ended=profile.single_ended,
-        modbus_data_format=profile.modbus_data_format,
-    )
 
 
 def log_of(vector: Record) -> list[str]:

@@ -103,3 +103,17 @@ def test_frames_and_a_file_are_one_too_many(run: Run) -> None:
     result = run("decode", "$012", "--raw")
 
     assert (result.code, result.err) == (2, "i7000: frames are given, and --file or --raw too: give one of them\n")
+
+
+def test_what_contradicts_a_model_that_was_given_is_printed_and_costs_the_exit_code(run: Run) -> None:
+    result = run("decode", "--model", "I-7018,type=J", "$012", "!010F0600")
+
+    assert "contradiction   type 0F (K), but type 0E (J) was given\n" in result.out
+    assert (result.code, result.err) == (1, "i7000: 1 not understood: line 2\n")
+
+
+def test_what_contradicts_the_factory_default_is_a_note_and_costs_nothing(run: Run) -> None:
+    result = run("decode", "--model", "I-7017", "#010", ">+0152.4")
+
+    assert "note            not as from the factory: another type\n" in result.out
+    assert result.code == 0

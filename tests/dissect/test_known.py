@@ -34,6 +34,10 @@ def test_a_profile_is_known_as_a_whole() -> None:
     assert Known.of(profile).default == profile
 
 
+def test_a_profile_without_types_leaves_them_unknown() -> None:
+    assert Known.of(Profile(Model.I_7018BL)).types is None
+
+
 def test_of_an_unknown_model_there_is_no_default() -> None:
     assert Known().default is None
 

@@ -1,12 +1,13 @@
 """The listener: what each frame means after those before it, of either protocol and of both on one line."""
 
 import gc
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import DataFormat, Fault, Model, Protocol, TypeCode, dcon, modbus
+from i7000 import ArgumentError, DataFormat, Fault, Model, Protocol, TypeCode, dcon, modbus
 from i7000.dissect import Direction, Heard, Knowledge, Known, Line, Place, flush, hear, hear_frame, line_dcon
 from tests.dissect.frames import REQUEST, RESPONSE
 from tests.dissect.hearing import hear_all, last_heard, line_of
@@ -333,6 +334,56 @@ def test_what_a_model_lacks_by_modbus_is_said() -> None:
     request = modbus.encode(modbus.ReadCjcOffset(1, 0))
 
     assert last_heard(request, known=Known(Model.M_7017)).notes[0].startswith("M-7017 has no ")
+
+
+@pytest.mark.parametrize(
+    ("sent", "direction"), [(True, Direction.REQUEST), (False, Direction.RESPONSE), (None, Direction.RESPONSE)]
+)
+def test_a_write_that_is_the_same_as_the_one_before_has_the_direction_that_is_known(
+    sent: bool | None,  # noqa: FBT001 - a parameter of the test
+    direction: Direction,
+) -> None:
+    line, _ = hear_frame(Line(), WRITE, Protocol.MODBUS_RTU, sent=True)
+    _, heard = hear_frame(line, WRITE, Protocol.MODBUS_RTU, sent=sent)
+
+    assert heard.direction in (direction, Direction.ECHO)
+
+
+@pytest.mark.parametrize(
+    ("frame", "sent", "notes"),
+    [
+        (b"$012\r", False, ("a command that the host received: an echo, or another host?",)),
+        (b"!010F0600\r", True, ("a response that the host sent",)),
+        (b"$012\r", True, ()),
+    ],
+)
+def test_a_direction_that_does_not_fit_the_frame_is_noticed(
+    frame: bytes,
+    sent: bool,  # noqa: FBT001 - a parameter of the test
+    notes: tuple[str, ...],
+) -> None:
+    _, heard = hear_frame(line_of(Known(Model.I_7018)), frame, Protocol.DCON, sent=sent)
+
+    assert heard.notes == notes
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("line", b"", Protocol.DCON),
+        (Line(), b"", 0),
+        (Line(), b"", Protocol.DCON, (1, "x")),
+        (Line(), "$", Protocol.DCON),
+    ],
+)
+def test_arguments_of_other_types_are_refused(arguments: tuple[Any, ...]) -> None:
+    with pytest.raises(ArgumentError):
+        hear_frame(*arguments)
+
+
+def test_a_place_needs_a_number() -> None:
+    with pytest.raises(ArgumentError, match="Place, with a number"):
+        hear_frame(Line(), b"", Protocol.DCON, Place("1", "x"))  # type: ignore[arg-type]
 
 
 # --- both on one line -------------------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import Fault, Protocol
+from i7000 import Fault, Protocol, modbus
 from i7000.dissect.stream import Span, looks_like, split
 from tests.dissect.frames import REQUEST, RESPONSE
 from tests.dissect.strategies import frames, protocols
@@ -55,6 +55,13 @@ def test_text_that_has_no_shape_of_dcon_is_noise_between_frames_of_both() -> Non
 
     assert good(found) == [(MODBUS, REQUEST), (DCON, b"$012\r")]
     assert found[0].wire == b"#z\r"
+
+
+def test_text_inside_a_frame_of_modbus_is_no_frame_of_dcon() -> None:
+    frame = modbus.seal(b"\x01\x10\x00\x00\x00\x03\x06$012\r\x00")
+    spans, _ = split(frame, last=True)
+
+    assert spans == (Span(MODBUS, frame),)
 
 
 @pytest.mark.parametrize(("wire", "protocol"), [(b"$01z\r\n\t", DCON), (b"\x01", MODBUS), (b"$01\xff", MODBUS)])

@@ -5,6 +5,7 @@ Laws: a cause is tried before it is named: a codec has decoded the frame without
 
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import Any
 
 from attrs import evolve
 
@@ -17,7 +18,6 @@ from i7000.dissect.modbus import ModbusReader
 from i7000.dissect.shapes import is_shaped
 from i7000.dissect.words import models_words
 from i7000.errors import DecodeError
-from i7000.message import Message
 from i7000.settings import DataFormat
 
 __all__ = ["address_notes", "dcon_causes", "modbus_causes", "register_notes"]
@@ -185,10 +185,15 @@ def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
 
 
 def register_notes(meaning: Meaning) -> Iterator[str]:
+<<<<<<< HEAD
     """Yield a note if an address looks like a number of the manual."""
     message: Message = meaning.command or meaning.message
     if not isinstance(message, modbus.Request):
         return
+=======
+    """Yield that an address in a request is likely to be a number of the manual."""
+    message: Any = meaning.message  # a request
+>>>>>>> w-c
     first = _NUMBERED.get(message.pdu[:2])
     start = next((getattr(message, name) for name in ("start", "register", "coil") if hasattr(message, name)), None)
     if first and start is not None and first < start <= first + _NUMBERS_A_KIND:

@@ -60,7 +60,7 @@ class Known:
         return cls(
             profile.model,
             profile.firmware,
-            profile.type_codes,
+            profile.type_codes or None,
             profile.data_format,
             profile.checksum,
             profile.single_ended,
