@@ -185,15 +185,8 @@ def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
 
 
 def register_notes(meaning: Meaning) -> Iterator[str]:
-<<<<<<< HEAD
     """Yield a note if an address looks like a number of the manual."""
-    message: Message = meaning.command or meaning.message
-    if not isinstance(message, modbus.Request):
-        return
-=======
-    """Yield that an address in a request is likely to be a number of the manual."""
     message: Any = meaning.message  # a request
->>>>>>> w-c
     first = _NUMBERED.get(message.pdu[:2])
     start = next((getattr(message, name) for name in ("start", "register", "coil") if hasattr(message, name)), None)
     if first and start is not None and first < start <= first + _NUMBERS_A_KIND:
