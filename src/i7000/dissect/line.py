@@ -80,8 +80,9 @@ def hear_frame(
         place = _next(line)
     elif place.__class__ is not Place or place.number.__class__ is not int:
         raise ArgumentError("place", place, "Place, with a number")
-    check_type("sent", sent, bool, optional=True)
-    return _hear(line, as_bytes("wire", wire), protocol, place, sent=sent)
+    if sent is not None:
+        check_type("sent", sent, bool)
+    return _hear(line, wire if wire.__class__ is bytes else as_bytes("wire", wire), protocol, place, sent=sent)
 
 
 def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place, *, sent: bool | None) -> tuple[Line, Heard]:

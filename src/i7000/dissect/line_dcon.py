@@ -38,7 +38,7 @@ def _hear_command(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     address = _dcon_address(wire)
     read = _read_dcon(knowledge.of(address), wire, None)
     notes = read.notes
-    if knowledge.modules:
+    if knowledge.modules and address not in knowledge.modules:
         notes = (*notes, *address_notes(address, knowledge))
     same_as = None
     if before is None or before.wire != wire:
@@ -116,10 +116,8 @@ class _Read(NamedTuple):
     """What the frame shows by itself: names of facts whose factory default it does not fit."""
     dropped: tuple[str, ...] = ()
     """Names of the facts that were learned, and that it contradicts."""
-
-    @property
-    def answers(self) -> bool:
-        return any(meaning.command for meaning in self.meanings)
+    answers: bool = False
+    """Whether it answers the command that it was read with."""
 
 
 def _dcon_address(wire: bytes) -> int | None:
@@ -155,7 +153,8 @@ def _read(module: Module, wire: bytes, asked: bytes | None) -> _Read:
             notes = (*notes, lacking)
     meanings = tuple(with_facts(meaning, module) for meaning in meanings)
     names = tuple(fact.name for fact in dropped)
-    return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown, names)
+    answers = any(meaning.command for meaning in meanings)
+    return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown, names, answers)
 
 
 _remembered = lru_cache(maxsize=_REMEMBERED)(_read)
