@@ -111,8 +111,7 @@ def _written(type_code: TypeCode, data_format: DataFormat) -> str:
         form, _, _ = _TEXTS[data_format, type_code]
         ends = f"{form}..{form}" % (low, high)
     span = f"{type_code.minimum:g}..{type_code.maximum:g} {unit}"
-    sends = f"type {type_code:02X} ({type_code.thermocouple or span}) sends {ends}"
-    return f"{sends}; pass lenient=True for a module that differs"
+    return f"type {type_code:02X} ({type_code.thermocouple or span}) sends {ends}"
 
 
 def encode_field(reading: Reading, type_code: TypeCode, data_format: DataFormat, *, legacy: bool = False) -> str:

@@ -61,7 +61,7 @@ def decode(  # noqa: PLR0913 - each of them is an option
     `i7000 decode --model 1=M-7019R@B3.7,type=K --model 2=I-7018,checksum=true --file bus.pcapng`
 
     Exit code: 0 if every frame is understood, even in several ways; 1 if a frame is damaged, unknown or contradicts
-    what is known, or if there is no frame; 2 for wrong usage.
+    what is known; 2 for wrong usage. With `--strict`, lines without a frame count too.
     """
     if schema:
         sys.stdout.write(f"{SCHEMA}\n")
@@ -135,7 +135,7 @@ class _Tally:
 
     def __init__(self) -> None:
         self.records = self.frames = 0
-        self.wrong, self.frameless = Counted(), Counted()
+        self.wrong, self.contradictory, self.frameless = Counted(), Counted(), Counted()
 
     def add(self, read: Read) -> None:
         """Count what was read."""
@@ -144,7 +144,8 @@ class _Tally:
         if read.missing is Missing.NOTHING:
             self.frameless.add(read.line)
         if not read.understood:
-            self.wrong.add(read.line)
+            contradictory = read.heard is not None and read.heard.error is None
+            (self.contradictory if contradictory else self.wrong).add(read.line)
 
     def code(self, printer: Printer, long: Counted, *, strict: bool) -> int:
         """Print what was wrong, and return the exit code."""
@@ -160,7 +161,9 @@ class _Tally:
         if strict and self.frameless.count:
             printer.error(f"{self.frameless.count} without a frame: line {self.frameless}")
             return 1
-        return 1 if self.wrong.count or long.count or (self.records and not self.frames) else 0
+        if self.contradictory.count:
+            printer.error(f"{self.contradictory.count} contradicting what is known: line {self.contradictory}")
+        return 1 if self.wrong.count or self.contradictory.count or long.count else 0
 
 
 def _print(reads: Iterable[Read], knowledge: Knowledge, shown: frozenset[int], printer: Printer) -> _Tally:

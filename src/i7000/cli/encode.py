@@ -1,13 +1,13 @@
 """``i7000 encode``: the frame of a message."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from i7000 import InvalidValueError
 from i7000.cli.message import DCON, MODBUS, find, frame_text, make, refusal_words, registers
 from i7000.cli.message import encode as encode_message
-from i7000.cli.options import UNKNOWN, Json, Module, ProtocolName
+from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.text import Line, Printer
 
 __all__ = ["encode"]
@@ -17,7 +17,9 @@ def encode(
     name: Annotated[str, Parameter(help="Name of a command or response. i7000 commands lists them.")],
     /,
     *fields: Annotated[str, Parameter(help="The fields, each as field=value. Example: address=1.")],
-    protocol: ProtocolName = "dcon",
+    protocol: Annotated[
+        Literal["auto", "dcon", "rtu"], Parameter(help="DCON or Modbus RTU. auto: DCON if both have the name.")
+    ] = "auto",
     force: Annotated[bool, Parameter(help="Encode it even if the module would refuse it.", negative="")] = False,
     json: Json = False,
     module: Module = UNKNOWN,
@@ -40,16 +42,16 @@ def encode(
 
     Examples: `i7000 encode ReadConfiguration address=1`,
     `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
-    `i7000 encode ReadInputRegisters address=1 start=analog_input --model M-7019R --protocol rtu`
+    `i7000 encode ReadInputRegisters address=1 start=analog_input --model M-7019R`
 
     Exit code: 0 if the frame is printed, 1 if the model (or, without `--model`, every model) refuses it, 2 for wrong
     usage.
 
     JSON keys: `name`, `section`, `frame`, `wire` (hex).
     """
+    kind = find(name, (*DCON, *MODBUS) if protocol == "auto" else MODBUS if protocol == "rtu" else DCON)
+    protocol = "rtu" if kind in MODBUS else "dcon"
     known = module.known(protocol)
-    kinds = MODBUS if protocol == "rtu" else DCON
-    kind = find(name, kinds)
     printer = Printer(json=json)
     try:
         message = make(kind, fields, registers(known) if protocol == "rtu" else None, force=force)

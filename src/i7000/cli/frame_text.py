@@ -4,14 +4,14 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import groupby
 
-from i7000 import DecodeError, Protocol, Status, describe
+from i7000 import Protocol, Status, describe
 from i7000.cli.readers import Read
-from i7000.cli.records import OPTIONS, VALUES
+from i7000.cli.records import OPTIONS, VALUES, fault_words
 from i7000.cli.text import Line
 from i7000.dissect import Item, Meaning, Place
 from i7000.dissect.words import models_words
 
-__all__ = ["fault_words", "frame_lines"]
+__all__ = ["frame_lines"]
 
 _INDENT = "     "
 
@@ -37,14 +37,6 @@ def frame_lines(read: Read, *, models: bool) -> Iterator[Line]:
         yield [(f"{_INDENT}  {'contradiction':<15} ", "dim"), (contradiction, "red")]
     for note in heard.notes:
         yield _row("note", note)
-
-
-def fault_words(error: DecodeError) -> str:
-    """Return what is wrong with a frame that is shown beside it."""
-    field = f" in {error.field}" if error.field not in ("", error.fault.value) else ""
-    allowed = f"; allowed: {error.allowed}" if error.allowed else ""
-    section = f" (manual {error.section})" if "." in error.section else ""
-    return f"{error.fault.value}{field} at byte {error.offset}{allowed}{section}"
 
 
 _REMEMBERED = 256

@@ -191,7 +191,7 @@ def find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
 
     Errors: `UsageError`.
     """
-    plain = {kind.__name__.lower(): kind for kind in kinds}
+    plain = {kind.__name__.lower(): kind for kind in reversed(kinds)}  # the first of two with one name
     wanted = name.lower().replace("-", "").replace("_", "")
     if wanted not in plain:
         other, protocol = (MODBUS, "rtu") if kinds is DCON else (DCON, "dcon")

@@ -12,7 +12,7 @@ from typing import Any
 
 from attrs import fields
 
-from i7000 import LineSettings, ReportSettings, Status, dcon, modbus
+from i7000 import DecodeError, LineSettings, ReportSettings, Status, dcon, modbus
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
@@ -25,6 +25,7 @@ __all__ = [
     "VALUES",
     "Record",
     "command_record",
+    "fault_words",
     "json_of",
     "meaning_record",
     "parts_of",
@@ -101,13 +102,21 @@ def _tail(read: Read, meaning: Meaning | None) -> Record:
         "note": "; ".join(notes) or None,
         "contradictions": list(heard.contradictions),
         "candidates": [meaning_record(candidate) | {"notes": list(candidate.notes)} for candidate in several],
-        "error": None if heard.error is None else str(heard.error),
+        "error": None if heard.error is None else fault_words(heard.error),
         "fault": None if heard.error is None else heard.error.fault.value,
     }
 
 
 _NOTHING_WRONG = _json(_tail(Read(0, 0, 0, "", None, None), None))[1:]
 """The keys of a frame of which nothing else is to be said."""
+
+
+def fault_words(error: DecodeError) -> str:
+    """Return what is wrong with a frame that is shown beside it."""
+    field = f" in {error.field}" if error.field not in ("", error.fault.value) else ""
+    allowed = f"; allowed: {error.allowed}" if error.allowed else ""
+    section = f" (manual {error.section})" if "." in error.section else ""
+    return f"{error.fault.value}{field} at byte {error.offset}{allowed}{section}"
 
 
 def _frame(heard: Heard) -> str:

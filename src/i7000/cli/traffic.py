@@ -11,7 +11,7 @@ from itertools import groupby
 from rich.text import Text
 
 from i7000 import Noise, Profile, Protocol, Reading, Status, dcon, modbus
-from i7000.cli.frame_text import fault_words
+from i7000.cli.records import fault_words
 from i7000.cli.text import escaped
 from i7000.dissect import ChannelReading, Item, Knowledge, Known, Line, Meaning, hear_frame
 from i7000.simulator.observed import Observed

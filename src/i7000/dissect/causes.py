@@ -10,7 +10,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import dcon, describe, modbus
-from i7000.dissect.dcon import DconReader
+from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.known import Knowledge, Known
 from i7000.dissect.meaning import Meaning
@@ -45,7 +45,7 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
     upper = body.upper()
     if upper != body and _name(reader, upper, asked):
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
-    if asked is not None and body[:1] == b">":
+    if asked is not None and body[:1] == b">" and len(body) % len(_BLANK_FIELD) == 1:
         yield from _format_causes(body, known, asked)
         yield from _model_causes(body, known, asked)
         for count in range(1, _MOST_STRIPPED):
@@ -76,7 +76,7 @@ def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator
     shorter, last = body[:-2], body[-2:].decode("ascii", "replace")
     if known.checksum and _name(plain, body, asked):
         yield f"without a checksum it is {_name(plain, body, asked)}; the checksum would be {dcon.checksum(body):02X}"
-    elif _name(plain, shorter, asked) and last.strip("0123456789abcdefABCDEF") == "":
+    elif (asked or is_command(body)) and _name(plain, shorter, asked) and not last.strip("0123456789abcdefABCDEF"):
         name, right = _name(plain, shorter, asked), f"{dcon.checksum(shorter):02X}"
         if last.upper() == right:
             yield f"{last} is the checksum of {name}; no checksum was expected"
@@ -120,6 +120,9 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
         name = _meant(reader, wire[6:])
         what = f"; the rest is {name}" if name else ""
         yield f"a Modbus TCP header (transaction {header}, {len(wire) - 6} bytes follow): these modules speak RTU{what}"
+        return
+    if len(wire) < modbus.SHORTEST_FRAME:
+        yield f"noise: {len(wire)} byte{'s' if len(wire) > 1 else ''} beside the frames"
         return
     whole, cut = _meant(reader, wire), _meant(reader, wire[:-2])
     if whole:

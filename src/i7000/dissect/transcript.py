@@ -4,6 +4,7 @@ Laws: every line that is not blank is in exactly one piece, or, with several fra
 put together only where nothing else can be made of its parts.
 """
 
+import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -19,6 +20,10 @@ from i7000.errors import ArgumentError
 from i7000.settings import Protocol
 
 __all__ = ["Piece", "pieces"]
+
+
+_CLOSING = re.compile(r"[\])}>\"'`,;hH]*")
+"""What closes the spelling of a byte or of a frame."""
 
 
 class Piece(NamedTuple):
@@ -167,6 +172,6 @@ def _of_line(number: int, text: str, found: tuple[Found, ...], protocol: Protoco
         yield Piece(number, number, text, None, b"")
     at = 0
     for it in found:
-        end = len(text) if it is found[-1] else it.end
+        end = len(text) if it is found[-1] else _CLOSING.match(text, it.end).end()  # type: ignore[union-attr] # of any
         yield Piece(number, number, text[at:end], it.kind, it.wire)
         at = end
