@@ -157,7 +157,7 @@ def test_a_frame_that_a_module_refuses_is_not_written(run: Run, arguments: str, 
         ("", "requires an argument"),
     ],
 )
-def test_what_cannot_be_understood_is_said(run: Run, arguments: str, message: str) -> None:
+def test_what_cannot_be_understood_is_reported(run: Run, arguments: str, message: str) -> None:
     result = run("encode", *arguments.split())
 
     assert message in result.err
@@ -201,7 +201,7 @@ def test_the_firmware_decides_what_is_listed(run: Run) -> None:
     }  # fmt: skip
 
 
-def test_the_firmware_can_be_told_without_a_model(run: Run) -> None:
+def test_the_firmware_can_be_given_without_a_model(run: Run) -> None:
     result = run("commands", "--firmware", "B3.8", "--json")
 
     (setter,) = [record for record in result.records if record["name"] == "SetChannelTypeCode"]
@@ -239,7 +239,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("commands --model x", "--model cannot be x"),
     ],
 )
-def test_wrong_usage_is_said(run: Run, arguments: str, message: str) -> None:
+def test_wrong_usage_is_reported(run: Run, arguments: str, message: str) -> None:
     result = run(*arguments.split())
 
     assert message in result.err

@@ -41,7 +41,7 @@ def log_of(vector: Record) -> list[str]:
 
 
 @each("vector", dcon_vectors("response", "refused", "silence"))
-def test_an_exchange_is_told_as_the_vector_says(vector: Record) -> None:
+def test_an_exchange_is_shown_as_the_vector_says(vector: Record) -> None:
     records = logged(*log_of(vector), known=known_of(vector), protocol=Protocol.DCON)
 
     messages = [vector["command"], vector["response"]][: len(records)]
@@ -54,7 +54,7 @@ def test_an_exchange_is_told_as_the_vector_says(vector: Record) -> None:
 
 
 @each("vector", dcon_vectors("response", "refused"))
-def test_an_exchange_with_an_unknown_module_is_told_among_others(vector: Record) -> None:
+def test_an_exchange_with_an_unknown_module_is_shown_among_others(vector: Record) -> None:
     response = logged(*log_of(vector), protocol=Protocol.DCON)[1]
 
     meanings = [(one["command"], one["name"], one["fields"]) for one in response["candidates"] or [response]]
@@ -97,7 +97,7 @@ def test_the_model_decides_what_a_command_is() -> None:
     assert record["name"] == "ReadCjcUpdate"
 
 
-def test_the_response_tells_what_the_command_was() -> None:
+def test_the_response_shows_what_the_command_was() -> None:
     _, record = told("$01A", "!012")
 
     assert (record["name"], record["command"], record["answers"]) == ("CjcUpdateSetting", "ReadCjcUpdate", 1)
@@ -136,7 +136,7 @@ def test_a_frame_that_does_not_fit_the_factory_defaults_leaves_them_open() -> No
     assert [reading["status"] for reading in record["readings"]] == [None] * 7 + ["over_range"]
 
 
-def test_the_decimals_of_a_type_tell_the_format() -> None:
+def test_the_decimals_of_a_type_show_the_format() -> None:
     _, record = told("#01", ">" + "+025.00" * 8, model=Model.I_7018, types=(TypeCode.K,))
 
     assert record["data_formats"] == ["percent"]
@@ -161,7 +161,7 @@ def test_a_reading_that_its_type_cannot_have_is_shown_without_a_value(run: Run) 
     assert "not known" not in result.out
 
 
-def test_types_can_be_told_for_each_channel() -> None:
+def test_types_can_be_given_for_each_channel() -> None:
     types = (TypeCode.K,) * 7 + (TypeCode.T,)
     _, record = told("#01", ">" + "+0025.1" * 7 + "+025.12", model=Model.I_7019R, types=types)
 
@@ -225,7 +225,7 @@ def test_firmware_decides_what_a_module_has() -> None:
     assert (old["fault"], new["name"]) == ("unsupported", "ReadOpenWireDetection")
 
 
-def test_the_pause_that_is_owed_is_told() -> None:
+def test_the_pause_that_is_owed_is_shown() -> None:
     (slow,) = told("$010C0", model=Model.I_7019R, firmware=Firmware("B2.6"))
 
     assert [record["pause"] for record in (slow, *told("#**", "$012"))] == [16.0, 0.002, 0.0]
@@ -261,7 +261,7 @@ def test_a_response_after_a_broadcast_is_read_alone() -> None:
     assert (record["name"], record["answers"]) == ("Refused", None)
 
 
-def test_the_answer_of_another_module_is_an_error_and_told_alone() -> None:
+def test_the_answer_of_another_module_is_an_error_and_shown_alone() -> None:
     _, late, right = told("$016", "!02FF", "!01FF")
 
     assert (late["fault"], late["answers"]) == ("address", None)
@@ -281,7 +281,7 @@ def test_a_response_of_no_module_has_a_fault() -> None:
     assert record["fault"] == "length"
 
 
-def test_a_wrong_checksum_is_told_where_there_has_to_be_one() -> None:
+def test_a_wrong_checksum_is_reported_if_one_is_required() -> None:
     (record,) = told("$012B8", checksum=True)
 
     assert (record["fault"], record["name"]) == ("checksum", None)
@@ -327,7 +327,7 @@ def test_a_log_of_good_exchanges_is_understood(run: Run) -> None:
         "type_code       20, not defined\n",
     ],
 )
-def test_a_log_is_told_in_words(run: Run, words: str) -> None:
+def test_a_log_is_shown_in_words(run: Run, words: str) -> None:
     assert words in run("decode", "--file", str(SESSION), "--model", "M-7019R", "--type", "K").out
 
 
@@ -354,14 +354,14 @@ def test_a_log_is_told_in_words(run: Run, words: str) -> None:
         ([">+0025.1"], "channel         +0025.1\n"),
     ],
 )
-def test_fields_are_told_in_words(run: Run, frames: list[str], words: str) -> None:
+def test_fields_are_shown_in_words(run: Run, frames: list[str], words: str) -> None:
     result = run("decode", *frames)
 
     assert words in result.out
     assert result.code == 0
 
 
-def test_models_are_told_if_they_are_not_known(run: Run) -> None:
+def test_models_are_shown_if_they_are_not_known(run: Run) -> None:
     assert "models  " in run("decode", "$012").out
     assert "models  " not in run("decode", "$012", "--model", "I-7018").out
 

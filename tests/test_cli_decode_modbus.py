@@ -41,7 +41,7 @@ def log_of(vector: Record) -> list[str]:
 
 @pytest.mark.parametrize("model_is_known", [True, False])
 @each("vector", modbus_vectors("response", "exception", "silence"))
-def test_an_exchange_is_told_as_the_vector_says(vector: Record, *, model_is_known: bool) -> None:
+def test_an_exchange_is_shown_as_the_vector_says(vector: Record, *, model_is_known: bool) -> None:
     known = known_of(vector) if model_is_known else Known()
 
     records = logged(*log_of(vector), known=known, protocol=Protocol.MODBUS_RTU)
@@ -68,7 +68,7 @@ def test_a_damaged_frame_has_the_fault_of_the_vector_or_is_something_else(vector
 
 
 @each("vector", DAMAGED)
-def test_a_damaged_frame_of_an_unknown_module_is_told_too(vector: Record) -> None:
+def test_a_damaged_frame_of_an_unknown_module_is_shown_too(vector: Record) -> None:
     *_, record = logged(*log_of(vector), protocol=Protocol.MODBUS_RTU)
 
     assert record["error"] or record["name"]
@@ -94,7 +94,7 @@ def test_a_response_is_read_with_the_request_before_it() -> None:
     )  # fmt: skip
 
 
-def test_a_response_alone_is_read_as_far_as_it_tells() -> None:
+def test_a_response_alone_is_read_as_far_as_possible() -> None:
     (record,) = told("01040400FA00FB", **M_7019R)
 
     assert (record["direction"], record["name"], record["note"]) == (
@@ -104,7 +104,7 @@ def test_a_response_alone_is_read_as_far_as_it_tells() -> None:
     assert record["registers"] == []
 
 
-def test_coils_alone_are_told_with_their_spare_bits() -> None:
+def test_coils_alone_are_shown_with_their_spare_bits() -> None:
     (record,) = told("01010105")
 
     assert record["explained"]["values"] == "1 0 1 0 0 0 0 0"
@@ -134,7 +134,7 @@ def test_a_response_after_a_request_to_all_modules_is_read_alone() -> None:
     assert record["note"] == "read without its request"
 
 
-def test_a_request_that_could_be_a_response_is_said_to_be_so() -> None:
+def test_a_request_that_could_be_a_response_has_a_note() -> None:
     first, second = told("010601E80064", "010601E80064")
 
     assert (first["direction"], first["note"]) == (
@@ -189,7 +189,7 @@ def test_a_write_that_does_not_repeat_the_one_before_could_be_its_response() -> 
     assert record["note"].startswith("or a wrong response to line 1: echo at byte 5 of ")
 
 
-def test_the_answer_of_another_module_is_an_error_and_told_alone() -> None:
+def test_the_answer_of_another_module_is_an_error_and_shown_alone() -> None:
     _, late, right = told("010301E80001", "0203020001", "0103020064")
 
     assert (late["fault"], late["direction"], late["answers"]) == ("address", "response", None)
@@ -266,13 +266,13 @@ def test_registers_have_only_numbers_without_a_model() -> None:
          [("40489", "host_watchdog_timeout", None), ("40490", "channel_mask", None)]),
     ],
 )  # fmt: skip
-def test_a_register_is_told_in_words(request_body: str, response_body: str, cells: list[Any]) -> None:
+def test_a_register_is_shown_in_words(request_body: str, response_body: str, cells: list[Any]) -> None:
     _, record = told(request_body, response_body, **M_7019R)
 
     assert cells == texts(record)
 
 
-def test_what_is_written_is_told() -> None:
+def test_what_is_written_is_shown() -> None:
     coils, registers = told("010F01040002 01 01", "011001E8000204 00640001", **M_7019R)
 
     assert texts(coils) == [("00261", "host_watchdog_enabled", "yes"), ("00262", None, "0, not in the map")]
@@ -294,7 +294,7 @@ def test_analog_words_are_readings(data_format: ModbusDataFormat, value: float) 
     assert (record["data_formats"], record["assumed"], record["note"]) == ([data_format.name.lower()], [], None)
 
 
-def test_what_is_assumed_of_readings_is_said() -> None:
+def test_what_is_assumed_of_readings_is_reported() -> None:
     _, record = told("010400000001", "01040200FA", model=Model.M_7017)
 
     assert record["assumed"] == ["type", "modbus_format"]
@@ -306,7 +306,7 @@ def test_a_word_of_a_channel_that_is_not_there_is_no_reading() -> None:
     assert (texts(record), record["readings"]) == ([("30011", "analog_input", "00FA")], [])
 
 
-def test_the_log_of_the_m_7017mc_16_is_told_record_by_record() -> None:
+def test_the_log_of_the_m_7017mc_16_is_shown_record_by_record() -> None:
     words = [0x7FFF, *[0] * 15, 5, 0] * 6
     _, record = told(
         "010403E8006C",
@@ -320,7 +320,7 @@ def test_the_log_of_the_m_7017mc_16_is_told_record_by_record() -> None:
     assert texts(record)[1] == ("31001", "log_records", f"record 1, 5 s: over_range{' 0' * 15} mA")
 
 
-def test_a_request_that_the_model_does_not_have_is_told_all_the_same() -> None:
+def test_a_request_that_the_model_does_not_have_is_shown_all_the_same() -> None:
     (record,) = told("01462F", model=Model.M_7018)
 
     assert record["name"] == "ReadCjcUpdate"
@@ -354,7 +354,7 @@ def test_a_request_that_the_model_does_not_have_is_told_all_the_same() -> None:
         (["0146 20", "01C6 0C"], {"function": "46", "exception_code": "0C, not defined"}),
     ],
 )  # fmt: skip
-def test_fields_are_told_in_words(bodies: list[str], explained: Record) -> None:
+def test_fields_are_shown_in_words(bodies: list[str], explained: Record) -> None:
     *_, record = told(*bodies)
 
     assert record["explained"] == {"address": "01"} | explained
@@ -386,7 +386,7 @@ def test_numbers_are_those_of_the_vectors() -> None:
         "8    nothing\n       note            no frame in this line\n",
     ],
 )
-def test_a_log_is_told_in_words(run: Run, words: str) -> None:
+def test_a_log_is_shown_in_words(run: Run, words: str) -> None:
     write, read = seal(bytes.fromhex("010601E80064")).hex(" "), seal(bytes.fromhex("010200800002")).hex(" ")
     answer = seal(bytes.fromhex("010410 00FA 7FFF 0000 0000 0000 0000 0000 0000")).hex(" ")
     lines = [f"> {ASK}", f"< {answer}", write, write, read, read, seal(bytes.fromhex("01020102")).hex(), "nothing"]
@@ -397,7 +397,7 @@ def test_a_log_is_told_in_words(run: Run, words: str) -> None:
     assert (result.code, result.err) == (0, "")
 
 
-def test_without_a_model_raw_registers_and_the_models_are_told(run: Run) -> None:
+def test_without_a_model_raw_registers_and_the_models_are_shown(run: Run) -> None:
     result = run("decode", "--protocol", "rtu", ASK, seal(bytes.fromhex("010410" + "00FA" * 8)).hex())
 
     assert "       30001..30008\n" in result.out
@@ -516,7 +516,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
         ("ReadCoils address=1 start=65535 count=2", 1, "count cannot be 2"),
     ],
 )
-def test_what_is_not_written_is_said(run: Run, arguments: str, code: int, message: str) -> None:
+def test_what_is_not_written_is_reported(run: Run, arguments: str, code: int, message: str) -> None:
     result = run("encode", "--protocol", "rtu", *arguments.split())
 
     assert message in result.err
@@ -541,7 +541,7 @@ def test_what_is_not_written_is_said(run: Run, arguments: str, code: int, messag
         ("registers --model I-7018", "I-7018 does not speak Modbus: M-7000 series only"),
     ],
 )
-def test_wrong_usage_is_said(run: Run, arguments: str, message: str) -> None:
+def test_wrong_usage_is_reported(run: Run, arguments: str, message: str) -> None:
     result = run(*arguments.split())
 
     assert message in result.err

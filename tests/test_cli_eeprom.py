@@ -31,7 +31,7 @@ def test_a_file_keeps_what_modules_remember(run: Run, tmp_path: Path) -> None:
     assert [eeprom.name for eeprom in load(memory)] == ["ABC"]
 
 
-def test_a_file_is_made_before_anything_is_said(run: Run, tmp_path: Path) -> None:
+def test_a_file_is_made_before_anything_is_printed(run: Run, tmp_path: Path) -> None:
     memory = tmp_path / "modules.json"
 
     simulated(run, "--model", KELVIN, "--eeprom", str(memory), "--tcp", "0")
@@ -68,7 +68,7 @@ def test_the_init_switch_is_not_in_the_file(tmp_path: Path) -> None:
     assert (without.init_switch, switched.init_switch) == (False, True)
 
 
-def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path) -> None:
+def test_a_file_that_turns_into_something_else_is_shown(run: Run, tmp_path: Path) -> None:
     memory, port = tmp_path / "modules.json", free_port()
 
     def meanwhile() -> None:
@@ -88,7 +88,7 @@ def test_a_file_that_turns_into_something_else_is_told(run: Run, tmp_path: Path)
     assert "is a device or pipe" in told.err
 
 
-def test_a_file_that_cannot_be_written_is_told(run: Run, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_shown(run: Run, tmp_path: Path) -> None:
     memory = tmp_path / "nowhere" / "modules.json"
 
     told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))

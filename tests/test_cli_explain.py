@@ -162,7 +162,7 @@ def test_a_byte_of_settings_is_explained_by_its_parts(run: Run) -> None:
     assert values["address"] == {}
 
 
-def test_an_erratum_is_told_once(run: Run) -> None:
+def test_an_erratum_is_shown_once(run: Run) -> None:
     out = run("commands", "SetCjcOffset").out
 
     assert out.count("The CJC offset of DCON is a sign and an") == 1
@@ -200,7 +200,7 @@ def test_a_register_is_found_by_name_number_or_address(run: Run, name: str, numb
     assert numbers == [record["number"] for record in explained(run, "registers", name, "--model", "M-7019R")]
 
 
-def test_models_with_the_same_row_are_told_together(run: Run) -> None:
+def test_models_with_the_same_row_are_shown_together(run: Run) -> None:
     records = explained(run, "registers", "cjc_offset")
 
     assert [tuple(record["models"]) for record in records] == [

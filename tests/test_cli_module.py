@@ -30,15 +30,15 @@ def test_a_model_alone_is_the_module_from_the_factory(model: Model) -> None:
 
 
 @given(st.sampled_from(Model), firmwares())
-def test_every_firmware_can_be_said(model: Model, firmware: object) -> None:
+def test_every_firmware_can_be_given(model: Model, firmware: object) -> None:
     assert str(firmware) == str(module(f"{model.value}@{firmware}").firmware)
 
 
-def test_the_address_is_the_one_given_unless_one_is_said() -> None:
+def test_the_address_in_the_description_replaces_the_default() -> None:
     assert [read_module(text, 0x07).eeprom.address for text in ("I-7018", "I-7018,address=02")] == [7, 2]
 
 
-def test_the_init_switch_is_set_where_it_is_said() -> None:
+def test_the_init_switch_is_set_if_given() -> None:
     assert [read_module(text, 1).init_switch for text in ("I-7018", "I-7018,init=true", "I-7018,init=no")] == [
         False,
         True,
@@ -85,7 +85,7 @@ def test_the_init_switch_is_set_where_it_is_said() -> None:
         ("M-7019R,host_watchdog_timeout=2.5", "host_watchdog_timeout", 25),
     ],
 )  # fmt: skip
-def test_what_is_said_is_what_the_module_remembers(text: str, field: str, value: object) -> None:
+def test_settings_that_are_given_are_those_of_the_module(text: str, field: str, value: object) -> None:
     assert value == getattr(module(text), field)
 
 
@@ -171,7 +171,7 @@ def test_a_refusal_begins_with_what_was_written() -> None:
         read_module("I-7018,baud=1", 1)
 
 
-def test_a_misspelt_name_is_told_what_it_is_near() -> None:
+def test_a_misspelt_name_is_answered_with_suggestions() -> None:
     assert refusal_of_module("I-7018,checksums=true").endswith("; did you mean checksum?")
 
 

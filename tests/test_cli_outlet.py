@@ -103,7 +103,7 @@ def test_what_there_is_no_room_for_is_counted_where_it_would_have_been() -> None
     assert file.getvalue() == LINE * (lines - 50) + "50 lines not shown\nlater\n"
 
 
-def test_while_lines_are_dropped_none_need_be_made() -> None:
+def test_while_lines_are_dropped_no_lines_are_made() -> None:
     file = Stopped()
     out = Outlet(file, most=0)
     before = out.skip(2)

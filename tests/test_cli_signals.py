@@ -46,7 +46,7 @@ def refusal_of_signals(*texts: str) -> str:
     return refusal(lambda: signals(*texts))
 
 
-def test_what_is_not_said_is_the_default() -> None:
+def test_settings_that_are_not_given_have_the_default() -> None:
     assert (default_sources(VOLTS), default_sources(AMPERES)) == read_signals([], [VOLTS, AMPERES])
 
 
@@ -73,7 +73,7 @@ def test_what_is_not_said_is_the_default() -> None:
         ("noise:5mA:0.1mA", Noise(5, 0.1, Unit.MILLIAMPERE, seed="0.0.3")),
     ],
 )
-def test_a_source_is_what_was_said(text: str, source: Source) -> None:
+def test_a_signal_is_the_one_that_was_given(text: str, source: Source) -> None:
     assert source == signals(f"3={text}").channels[3]
 
 
@@ -173,7 +173,7 @@ def test_a_signal_that_there_is_not_is_refused_with_the_reason(text: str, messag
     assert refusal_of_signals(text).startswith(message)
 
 
-def test_a_misspelt_source_is_told_what_it_is_near() -> None:
+def test_a_misspelt_signal_is_answered_with_suggestions() -> None:
     assert refusal_of_signals("0=nois:1:1").endswith("; did you mean noise?")
 
 

@@ -36,7 +36,7 @@ def test_modules_are_there_until_the_end(run: Run) -> None:
     assert answers == [SAID, b"!017019R\r"]
 
 
-def test_modules_that_would_answer_at_once_are_told(run: Run) -> None:
+def test_modules_that_would_answer_at_once_are_shown(run: Run) -> None:
     def told(*texts: str) -> str:
         models = [word for text in texts for word in ("--model", text)]
         return simulated(run, *models, "--tcp", "0").err
@@ -63,7 +63,7 @@ def test_all_ways_to_get_there_lead_to_the_same_modules(run: Run) -> None:
     assert re.fullmatch(rf"/dev/\S+\nsocket://127.0.0.1:{tcp}\nrfc2217://127.0.0.1:{rfc2217}\n", told.out)
 
 
-def test_traffic_can_be_told_line_by_line(run: Run) -> None:
+def test_traffic_can_be_shown_line_by_line(run: Run) -> None:
     port = free_port()
 
     told = simulated(
@@ -94,7 +94,7 @@ def test_on_a_terminal_there_is_a_live_view_that_leaves_it_as_it_was(run: Run, m
     assert told.out.index("\x1b[?25l") < told.out.rindex("\x1b[?25h")
 
 
-def test_a_place_beyond_this_machine_is_told(run: Run) -> None:
+def test_a_place_beyond_this_machine_is_shown(run: Run) -> None:
     told = simulated(run, "--model", KELVIN, "--tcp", "*:0", "--view", "none")
 
     assert re.fullmatch(r"socket://0\.0\.0\.0:\d+\n", told.out)
@@ -195,14 +195,14 @@ def test_a_simulation_under_nohup_goes_on_when_it_is_hung_up(run: Run) -> None:
         (("--model", KELVIN, "--fault", "dropp=1"), "there is no fault 'dropp'"),
     ],
 )
-def test_what_cannot_be_simulated_is_told(run: Run, arguments: tuple[str, ...], said: str) -> None:
+def test_what_cannot_be_simulated_is_shown(run: Run, arguments: tuple[str, ...], said: str) -> None:
     told = run("simulate", *arguments)
 
     assert (told.code, told.out) == (2, "")
     assert said in told.err
 
 
-def test_a_place_that_is_taken_is_told(run: Run) -> None:
+def test_a_place_that_is_taken_is_shown(run: Run) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         told = run("simulate", "--model", KELVIN, "--tcp", str(server.getsockname()[1]))
 
@@ -223,7 +223,7 @@ def test_a_place_that_is_taken_is_told(run: Run) -> None:
         ("late_by=1", "there is no fault 'late_by'"),
     ],
 )
-def test_what_is_no_fault_is_told(text: str, said: str) -> None:
+def test_an_unknown_fault_is_refused(text: str, said: str) -> None:
     with pytest.raises(UsageError, match=re.escape(said)):
         read_faults([text])
 
@@ -235,7 +235,7 @@ def test_faults_add_up() -> None:
     assert (faults.noise, faults.late, faults.late_by) == (0.3, 0.4, 0.5)
 
 
-def test_only_this_machine_gets_there_unless_another_host_is_said() -> None:
+def test_only_this_machine_can_connect_unless_a_host_is_given() -> None:
     assert read_place("socket", "5020").host == "127.0.0.1"
     assert read_place("socket", ":5020").host == "127.0.0.1"
     assert read_place("socket", "0.0.0.0:5020").host == "0.0.0.0"  # noqa: S104
@@ -265,12 +265,12 @@ def test_a_host_that_is_not_whole_is_refused(text: str) -> None:
     "text",
     ["", "[::1]", "localhost", "[::1]:", "1:65536", "1:-1", "1:+1", "1: 1", "1:1 ", "1:1e3", "1:000001", "1:\u0663"],
 )
-def test_a_port_that_is_none_is_refused(text: str) -> None:
+def test_an_invalid_port_is_refused(text: str) -> None:
     with pytest.raises(UsageError, match=re.escape(f"{text!r} is not [HOST:]PORT: a port is 0..65535")):
         read_place("socket", text)
 
 
-def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_not_installed_is_shown(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "i7000.simulator.rfc2217", None)
 
     told = run("simulate", "--model", KELVIN, "--rfc2217", "0")
@@ -279,7 +279,7 @@ def test_what_is_not_installed_is_told(run: Run, monkeypatch: pytest.MonkeyPatch
     assert 'pip install "i7000[simulator]"' in told.err
 
 
-def test_a_system_without_pseudo_terminals_is_told_what_else_there_is(
+def test_without_pseudo_terminals_the_message_names_the_other_options(
     run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "i7000.simulator.pseudo_terminal", None)

@@ -183,7 +183,7 @@ def test_a_log_is_decoded_as_it_arrives() -> None:
         assert process.wait() == 0
 
 
-def test_a_long_line_is_said_to_be_read_in_pieces(run: Run) -> None:
+def test_a_long_line_is_reported_as_read_in_pieces(run: Run) -> None:
     result = run("decode", stdin=b"$012\n" + b"\0" * 200_000 + b"\n$012\n")
 
     assert result.err.splitlines() == [

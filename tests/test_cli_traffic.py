@@ -44,7 +44,7 @@ def test_a_command_and_its_answer_are_two_lines_with_readings_in_units() -> None
     ]
 
 
-def test_a_unit_is_told_once_for_neighbours_that_share_it() -> None:
+def test_a_unit_is_shown_once_for_neighbours_that_share_it() -> None:
     mixed = Profile(Model.I_7019R, type_codes=(TypeCode.K,) * 2 + (TypeCode.V_10,) * 5 + (TypeCode.K,))
     report = b">+0025.1       +01.000       +02.500+03.000+04.000-9999.9\r"
 
@@ -60,22 +60,22 @@ def test_one_channel_is_read_in_its_unit() -> None:
     assert answer.endswith(">+025.12  AnalogInput  25.12 degC")
 
 
-def test_fields_are_told_in_words() -> None:
+def test_fields_are_shown_in_words() -> None:
     _, answer = told(b"$012\r", b"!010E0642\r")
 
     words = "type_code 0E, thermocouple J, -210..760 degC; line_settings 06, 9600 baud, N81; report_settings 42, hex,"
     assert f"Configuration  {words}" in answer
 
 
-def test_a_refusal_is_told_by_its_name() -> None:
+def test_a_refusal_is_shown_by_its_name() -> None:
     assert told(b"#019\r", b"?01\r")[1] == "            ?01  Refused"
 
 
-def test_silence_of_a_module_that_was_asked_is_told() -> None:
+def test_silence_of_a_module_that_was_asked_is_shown() -> None:
     assert told(b"#01\r") == ["    12.345  127.0.0.1:51234  #01  ReadAnalogInputs  silence"]
 
 
-def test_what_is_for_no_module_is_told_as_such() -> None:
+def test_what_is_for_no_module_is_shown_as_such() -> None:
     assert told(b"$99M\r", profile=None) == ["    12.345  127.0.0.1:51234  $99M  for no module here"]
 
 
@@ -103,7 +103,7 @@ def test_what_is_for_no_module_is_told_as_such() -> None:
         (modbus.seal(b"\x01\x2b"), RTU, I_7018R, "the I-7018R speaks DCON only"),
     ],
 )
-def test_a_frame_that_a_module_does_not_understand_is_told_with_the_reason(
+def test_a_frame_that_a_module_does_not_understand_is_shown_with_the_reason(
     frame: bytes, protocol: Protocol, deaf: Profile, words: str
 ) -> None:
     (line,) = lines(Observed(0.0, "pty", frame, protocol, None, None, deaf=deaf))
@@ -112,7 +112,7 @@ def test_a_frame_that_a_module_does_not_understand_is_told_with_the_reason(
 
 
 @pytest.mark.parametrize("frame", [b"#**\r", b"#**77\r"])
-def test_a_command_to_all_modules_is_told_as_such(frame: bytes) -> None:
+def test_a_command_to_all_modules_is_shown_as_such(frame: bytes) -> None:
     (line,) = told(frame, profile=None)
 
     assert line.endswith(f"{frame[:-1].decode()}  SynchronizedSampling  to all modules")
@@ -164,7 +164,7 @@ def test_a_profile_without_types_leaves_readings_as_they_were_sent() -> None:
 # --- what is told of Modbus -------------------------------------------------------------------------------------------
 
 
-def test_registers_are_told_by_name_with_readings_in_units() -> None:
+def test_registers_are_shown_by_name_with_readings_in_units() -> None:
     asked, answer = told(
         rtu(modbus.ReadInputRegisters(1, 0, 3)), rtu(modbus.InputRegisters(1, (0x0258, 0x7FFF, 0x8000))), M_7019R
     )
@@ -173,7 +173,7 @@ def test_registers_are_told_by_name_with_readings_in_units() -> None:
     assert answer.endswith("InputRegisters  30001..30003 analog_input 25.12284 degC, OVER_RANGE, UNDER_RANGE")
 
 
-def test_what_is_written_is_told_in_units() -> None:
+def test_what_is_written_is_shown_in_units() -> None:
     frame = rtu(modbus.WriteSingleRegister(1, 488, 100))
 
     asked, answer = told(frame, frame, M_7019R)
@@ -182,7 +182,7 @@ def test_what_is_written_is_told_in_units() -> None:
     assert answer.endswith("SingleRegisterWritten  40489 host_watchdog_timeout 10 s")
 
 
-def test_fields_of_module_settings_are_told_by_name() -> None:
+def test_fields_of_module_settings_are_shown_by_name() -> None:
     request = modbus.ReadTypeCode(1, 2)
 
     asked, answer = told(rtu(request), rtu(modbus.TypeCodeSetting(1, TypeCode.K)), M_7019R)
@@ -191,26 +191,26 @@ def test_fields_of_module_settings_are_told_by_name() -> None:
     assert answer.endswith("TypeCodeSetting  type_code 0F, thermocouple K, -270..1372 degC")
 
 
-def test_an_exception_is_told_in_words() -> None:
+def test_an_exception_is_shown_in_words() -> None:
     _, answer = told(rtu(modbus.ReadInputRegisters(1, 0, 3)), rtu(modbus.ExceptionResponse(1, 4, 2)), M_7019R)
 
     assert answer.endswith("ExceptionResponse  function 04; exception_code 02, illegal data address")
 
 
-def test_registers_that_the_module_does_not_have_are_told_as_such() -> None:
+def test_registers_that_the_module_does_not_have_are_shown_as_such() -> None:
     (line,) = told(rtu(modbus.ReadInputRegisters(1, 100, 3)), profile=M_7019R)
 
     assert line.endswith("30101..30103 not in the map  silence")
 
 
 @pytest.mark.parametrize("count", [200, 2000])
-def test_of_many_registers_the_first_are_told(count: int) -> None:
+def test_of_many_registers_the_first_are_shown(count: int) -> None:
     (line,) = told(rtu(modbus.ReadCoils(1, 256, count)), profile=M_7019R)
 
     assert line.endswith("; 00261 host_watchdog_enabled; 00262..00267 not in the map; ...  silence")
 
 
-def test_values_of_what_has_no_name_are_told_as_they_were_sent() -> None:
+def test_values_of_what_has_no_name_are_shown_as_they_were_sent() -> None:
     (line,) = told(rtu(modbus.WriteMultipleRegisters(1, 3000, (1, 2, 0xABCD))), profile=M_7019R)
 
     assert line.endswith("WriteMultipleRegisters  43001..43003 not in the map 0001, 0002, ABCD  silence")
@@ -221,13 +221,13 @@ def modbus_line(message: modbus.Message | bytes, answer: bytes | None = None) ->
     return [line.plain for line in lines(Observed(0.0, "pty", heard, RTU, None, answer))]
 
 
-def test_a_request_for_no_module_here_is_told_by_number() -> None:
+def test_a_request_for_no_module_here_is_shown_by_number() -> None:
     (line,) = modbus_line(modbus.ReadInputRegisters(9, 0, 2))
 
     assert line.endswith("ReadInputRegisters  30001..30002; for no module here")
 
 
-def test_a_request_to_all_modules_is_told_as_such() -> None:
+def test_a_request_to_all_modules_is_shown_as_such() -> None:
     (line,) = modbus_line(modbus.WriteSingleCoil(0, 259, True))
 
     assert line.endswith("WriteSingleCoil  00260 1; to all modules")
@@ -273,7 +273,7 @@ ANY_HEARD = st.binary(max_size=300) | st.builds(Noise, st.binary(max_size=300), 
         deaf=st.none() | strategies.profiles(),
     )
 )
-def test_whatever_was_on_the_line_is_told_without_control_characters(any_: Observed) -> None:
+def test_whatever_was_on_the_line_is_shown_without_control_characters(any_: Observed) -> None:
     found = list(lines(any_))
 
     assert len(found) == 1 + (any_.answer is not None)
@@ -281,7 +281,7 @@ def test_whatever_was_on_the_line_is_told_without_control_characters(any_: Obser
 
 
 @given(strategies.dcon.exchanges())
-def test_every_exchange_by_dcon_is_told_by_name(exchange: strategies.dcon.Exchange) -> None:
+def test_every_exchange_by_dcon_is_shown_by_name(exchange: strategies.dcon.Exchange) -> None:
     heard = Observed(1.0, "pty", exchange.command_wire, DCON, exchange.profile, exchange.response_wire)
 
     asked, answered = lines(heard)
@@ -291,7 +291,7 @@ def test_every_exchange_by_dcon_is_told_by_name(exchange: strategies.dcon.Exchan
 
 
 @given(strategies.modbus.exchanges(), st.booleans())
-def test_every_exchange_by_modbus_is_told_by_name(exchange: strategies.modbus.Exchange, known: bool) -> None:  # noqa: FBT001
+def test_every_exchange_by_modbus_is_shown_by_name(exchange: strategies.modbus.Exchange, known: bool) -> None:  # noqa: FBT001
     profile = exchange.profile if known or exchange.request.function == 0x46 else None
     heard = Observed(1.0, "pty", exchange.request_wire, RTU, profile, exchange.response_wire)
 

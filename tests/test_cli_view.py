@@ -82,7 +82,7 @@ def test_the_settings_are_those_of_now_and_not_those_of_after_power_on() -> None
     assert after.split()[2:6] == ["DCON", "115200", "E81", "none"]
 
 
-def test_a_baud_rate_that_no_module_has_is_told_as_its_code() -> None:
+def test_a_baud_rate_that_no_module_has_is_shown_as_its_code() -> None:
     _, row, *_ = drawn([MIXED.keep(line_settings=LineSettings(0x3F))])
 
     assert "code 3F N81" in row

@@ -169,7 +169,7 @@ def test_a_command_of_an_unknown_module_is_all_that_it_could_be(frame: bytes, co
         (b"$017C0X30\r", Fault.CHARACTER, 6),
     ],
 )
-def test_what_no_module_understands_is_told_by_the_command_that_is_nearest(
+def test_what_no_module_understands_is_shown_by_the_command_that_is_nearest(
     frame: bytes, fault: Fault, offset: int
 ) -> None:
     with pytest.raises(DecodeError) as caught:

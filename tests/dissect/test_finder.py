@@ -56,7 +56,7 @@ def test_two_frames_of_a_line_are_found_and_nothing_between(kind: str, name: str
 
 
 @pytest.mark.parametrize("text", WITHOUT_FRAMES)
-def test_a_line_without_a_frame_has_none(text: str) -> None:
+def test_no_frame_is_found_in_a_line_without_one(text: str) -> None:
     assert find(text) == ()
 
 
@@ -102,7 +102,7 @@ def test_a_byte_before_a_frame_in_its_own_spelling_is_found_as_damaged() -> None
         "12 $01 $04 $00 $00 $00 $01 $31 $CA",
     ],
 )
-def test_a_number_before_a_frame_in_another_spelling_is_none_of_its_bytes(text: str) -> None:
+def test_a_number_before_a_frame_in_another_spelling_is_not_part_of_it(text: str) -> None:
     assert wires(text) == [REQUEST]
 
 
@@ -142,7 +142,7 @@ def test_both_protocols_are_found_in_one_line() -> None:
     assert wires("$012 and then 01 04 00 00 00 01 31 CA") == [b"$012\r", REQUEST]
 
 
-def test_the_place_of_a_frame_in_the_line_is_told() -> None:
+def test_the_place_of_a_frame_in_the_line_is_shown() -> None:
     (found,) = find("TX: $012 ok")
 
     assert (found.start, found.end) == (4, 8)
