@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 from i7000 import Firmware, Model, Protocol, TypeCode, dcon
 from i7000.cli import main
-from i7000.dissect import Known
+from i7000.cli.readers import of_lines
+from i7000.dissect import Knowledge, Known, Place
+from i7000.modbus import seal
 from tests.each import each
 from tests.spec.lint import Record
 from tests.terminal import Run, known_of, logged
@@ -409,10 +411,10 @@ def test_nothing_at_all_is_understood(run: Run) -> None:
     assert (result.code, result.out, result.err) == (0, "", "i7000: nothing to decode: the input is empty\n")
 
 
-def test_a_log_without_a_frame_is_an_error_only_as_a_whole(run: Run) -> None:
+def test_a_line_without_a_frame_is_no_error(run: Run) -> None:
     nothing, something = run("decode", "COM3 opened", "ready"), run("decode", "COM3 opened", "$012")
 
-    assert (nothing.code, nothing.err) == (1, "i7000: no frame in the input\n")
+    assert (nothing.code, nothing.err) == (0, "i7000: no frame in the input\n")
     assert (something.code, something.err) == (0, "")
 
 
@@ -448,7 +450,7 @@ def test_what_cannot_be_written_is_escaped(monkeypatch: pytest.MonkeyPatch) -> N
     written = io.BytesIO()
     monkeypatch.setattr("sys.stdout", io.TextIOWrapper(written, encoding="ascii", write_through=True))
 
-    assert main(["decode", "Güte"]) == 1
+    assert main(["decode", "Güte"]) == 0
     assert written.getvalue().startswith(b"1    G\\xfcte\n")
 
 
@@ -475,3 +477,61 @@ def test_no_frame_makes_it_raise(frame: str) -> None:
     records = logged(frame, "$016", frame, protocol=Protocol.DCON)
 
     assert all(record["error"] or record["name"] or record["candidates"] or record["notes"] for record in records)
+
+
+# --- decode: several modules, and changes -----------------------------------------------------------------------------
+
+REPORT_K = ">" + "+0025.1" * 8
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "err"),
+    [
+        (["$012", "!010F0600", "$012", "!01100600"], 1, "i7000: 1 contradicting what is known: line 4\n"),
+        (["%01010F0640", "!01", "$012B7", "!010F0640C2"], 0, ""),
+        (["$01M", "!017018", "~01O7019R", "!01", "$01M", "!017019R"], 0, ""),
+        (["07 06 01 E4 01 01 08 37"] * 2, 0, ""),
+        (["--address", "256", "$012"], 2, "i7000: --address 256: an address is 0..255 or 00h..FFh\n"),
+        (["--address", "3", "$012"], 0, "i7000: no frame of this address\n"),
+    ],
+)  # fmt: skip
+def test_what_contradicts_the_log_is_counted_apart(run: Run, arguments: list[str], code: int, err: str) -> None:
+    result = run("decode", *arguments)
+
+    assert (result.code, result.err) == (code, err)
+
+
+def test_a_late_response_is_decoded_as_that_of_its_own_module() -> None:
+    knowledge = Knowledge.given(
+        Known(), {1: Known(Model.I_7017, types=(TypeCode.V_10,)), 2: Known(Model.I_7017, types=(TypeCode.MA_20_0D,))}
+    )
+    *_, late = of_lines(enumerate(["#01", "$022", ">" + "+01.000" * 8], 1), knowledge, None)
+
+    assert late.heard is not None
+    assert (late.heard.address, late.heard.answers) == (1, Place(1, "line 1"))
+    assert late.heard.meanings[0].readings[0].unit == "V"
+
+
+@pytest.mark.parametrize(("second", "direction", "types"), [("TX", "request", "K"), ("RX", "response", "T")])
+def test_words_for_the_direction_tell_a_retry_from_a_response(second: str, direction: str, types: str) -> None:
+    write = seal(bytes.fromhex("010601000010")).hex(" ")
+    known = Known(Model.M_7019R, types=(TypeCode.K,))
+    *_, again, _, read = logged(
+        f"TX {write}", f"{second} {write}", "TX " + seal(bytes.fromhex("010400000001")).hex(" "),
+        "RX " + seal(bytes.fromhex("0104020100")).hex(" "), known=known,
+    )  # fmt: skip
+
+    assert again["direction"] == direction
+    assert read["readings"][0]["type_code"] == TypeCode[types]
+
+
+def test_colours_around_a_frame_are_no_part_of_it() -> None:
+    command, response = logged("\x1b[32m#01\x1b[0m", f"\x1b[33m{REPORT_K}\x1b[0m")
+
+    assert (command["name"], response["name"]) == ("ReadAnalogInputs", "AnalogInputs")
+
+
+def test_a_broadcast_that_sets_something_is_noted() -> None:
+    (record,) = logged(seal(bytes.fromhex("0005010CFF00")).hex())
+
+    assert record["notes"] == ["a broadcast: no module confirms it, so whether its settings hold is unknown"]

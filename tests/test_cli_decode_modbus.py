@@ -527,10 +527,6 @@ def test_what_is_not_written_is_reported(run: Run, arguments: str, code: int, me
     ("arguments", "message"),
     [
         (
-            "encode ReadCoils address=1 start=0 count=1",
-            "ReadCoils is a message of the other protocol: add --protocol rtu",
-        ),
-        (
             "decode $012 --modbus-format hex --protocol dcon",
             "--modbus-format is for --protocol rtu; for DCON give --format",
         ),

@@ -61,10 +61,10 @@ def test_an_address_can_be_one_of_the_settings() -> None:
         (Module(("I-7018",), types="V_10"), "auto", "--type cannot be V_10"),
         (Module(("I-7018",), firmware="X"), "auto", "--firmware cannot be X"),
         (Module(("I-7018",), single_ended=True), "auto", "--single-ended cannot be given"),
-        (Module(("I-7018",)), "rtu", "I-7018 has no Modbus: M-7000 series only"),
-        (Module(checksum=True), "rtu", "--format and --checksum are of DCON"),
-        (Module(modbus_format=ModbusDataFormat.HEX), "dcon", "--modbus-format is of --protocol rtu"),
-        (Module(("I-7018,colour=red",)), "auto", "a module has no 'colour'"),
+        (Module(("I-7018",)), "rtu", "I-7018 does not speak Modbus: M-7000 series only"),
+        (Module(checksum=True), "rtu", "--format and --checksum are for DCON"),
+        (Module(modbus_format=ModbusDataFormat.HEX), "dcon", "--modbus-format is for --protocol rtu"),
+        (Module(("I-7018,colour=red",)), "auto", "a module has no setting 'colour'"),
     ],
 )
 def test_what_no_module_is_is_refused(module: Module, protocol: str, said: str) -> None:
@@ -102,14 +102,14 @@ def test_what_is_wrong_with_other_modules_does_not_count_then(run: Run) -> None:
 def test_frames_and_a_file_are_one_too_many(run: Run) -> None:
     result = run("decode", "$012", "--raw")
 
-    assert (result.code, result.err) == (2, "i7000: frames are given, and --file or --raw too: give one of them\n")
+    assert (result.code, result.err) == (2, "i7000: give either frames, or --file or --raw\n")
 
 
 def test_what_contradicts_a_model_that_was_given_is_printed_and_costs_the_exit_code(run: Run) -> None:
     result = run("decode", "--model", "I-7018,type=J", "$012", "!010F0600")
 
     assert "contradiction   type 0F (K), but type 0E (J) was given\n" in result.out
-    assert (result.code, result.err) == (1, "i7000: 1 not understood: line 2\n")
+    assert (result.code, result.err) == (1, "i7000: 1 contradicting what is known: line 2\n")
 
 
 def test_what_contradicts_the_factory_default_is_a_note_and_costs_nothing(run: Run) -> None:

@@ -39,6 +39,8 @@ def hexed(digits: str) -> bytes:
         ("01 04 00 00 00 01 31", "cut: ReadInputRegisters without its last byte, CA"),
         ("00 1E 04 02 0B 61 EA", "cut: InputRegisters without its last byte, 2A"),
         ("00 80 FF 00 FF 80 FF 00", "noise: another baud rate or parity?"),
+        ("00", "noise: 1 byte beside the frames"),
+        ("FF FF", "noise: 2 bytes beside the frames"),
     ],
 )
 def test_the_cause_that_a_frame_cannot_be_read_by_modbus_is_named(wire: str, said: str) -> None:
@@ -48,7 +50,7 @@ def test_the_cause_that_a_frame_cannot_be_read_by_modbus_is_named(wire: str, sai
     assert heard.error is not None
 
 
-@pytest.mark.parametrize("wire", ["01", "FF FF", "01 02 03 04 05 06 07", "01" * 300])
+@pytest.mark.parametrize("wire", ["01 02 03 04 05 06 07", "01" * 300])
 def test_where_no_cause_is_likely_none_is_named(wire: str) -> None:
     assert last_heard(hexed(wire)).notes == ()
 

@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from i7000.cli.frame_text import frame_lines
 from i7000.cli.numbers import integer
-from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module
+from i7000.cli.options import LAST_ADDRESS, PROTOCOLS, UNKNOWN, Json, Module
 from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_stream
 from i7000.cli.records import json_of
 from i7000.cli.schema import SCHEMA
@@ -67,11 +67,18 @@ def decode(  # noqa: PLR0913 - each of them is an option
         sys.stdout.write(f"{SCHEMA}\n")
         return 0
     knowledge = module.knowledge(protocol)
-    shown = frozenset(map(integer, address))
+    shown = frozenset(map(_address, address))
     printer = Printer(json=json)
     with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
         tally = _print(reads, knowledge, shown, printer)
     return tally.code(printer, lines.long if lines else Counted(), strict=strict)
+
+
+def _address(text: str) -> int:
+    number = integer(text)
+    if not 0 <= number <= LAST_ADDRESS:
+        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
+    return number
 
 
 # --- what is decoded --------------------------------------------------------------------------------------------------
@@ -134,7 +141,7 @@ class _Tally:
     """The number of frames, and which of them are not understood."""
 
     def __init__(self) -> None:
-        self.records = self.frames = 0
+        self.records = self.frames = self.hidden = 0
         self.wrong, self.contradictory, self.frameless = Counted(), Counted(), Counted()
 
     def add(self, read: Read) -> None:
@@ -149,7 +156,9 @@ class _Tally:
 
     def code(self, printer: Printer, long: Counted, *, strict: bool) -> int:
         """Print what was wrong, and return the exit code."""
-        if not self.records:
+        if not self.records and self.hidden:
+            printer.error("no frame of this address")
+        elif not self.records:
             printer.error("nothing to decode: the input is empty")
         elif not self.frames:
             printer.error("no frame in the input")
@@ -171,6 +180,7 @@ def _print(reads: Iterable[Read], knowledge: Knowledge, shown: frozenset[int], p
     for read in reads:
         heard = read.heard
         if shown and (heard is None or heard.address not in shown):
+            tally.hidden += 1
             continue
         tally.add(read)
         if printer.json:

@@ -15,14 +15,14 @@ from i7000.cli.words import UsageError, type_codes
 from i7000.describe import address as address_words
 from i7000.dissect import Knowledge, Known
 
-__all__ = ["PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
+__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="The protocol of the message: DCON or Modbus RTU.")]
 PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
 """The names of the protocols at the terminal."""
 
 _ADDRESSED = re.compile(r"([^=@,]*)=(.*)")
-_LAST_ADDRESS = 0xFF
+LAST_ADDRESS = 0xFF
 
 
 @Parameter(name="*")
@@ -130,7 +130,7 @@ def _described(text: str) -> tuple[int | None, Known]:
     address = None
     if addressed:
         address = integer(addressed[1])
-        if not 0 <= address <= _LAST_ADDRESS:
+        if not 0 <= address <= LAST_ADDRESS:
             raise UsageError(f"{text!r}: an address is 0..255 or 00h..FFh")
         text = addressed[2]
     if "@" not in text and "," not in text:

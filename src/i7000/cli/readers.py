@@ -13,6 +13,7 @@ from attrs import evolve
 
 from i7000.dissect import Heard, Kind, Knowledge, Line, Piece, Place, flush, hear, hear_frame, pieces
 from i7000.dissect.capture import Damage, Packet, packets
+from i7000.dissect.repeats import sent
 from i7000.dissect.stream import looks_like
 from i7000.settings import Protocol
 
@@ -69,7 +70,10 @@ def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: P
             missing, note = Missing.NOTHING, Missing.NOTHING.value
         else:
             place = Place(number, f"line {start}")
-            line, heard = hear_frame(line, wire, _protocol_of(piece) if protocol is None else protocol, place)
+            asked = line.requests.asked
+            again = asked is not None and asked.wire == wire  # Only the words beside it show what it is.
+            kind_of = _protocol_of(piece) if protocol is None else protocol
+            line, heard = hear_frame(line, wire, kind_of, place, sent=sent(text) if again else None)
         yield Read(number, start, last, _shown(text), _time(text), heard, missing, note)
 
 

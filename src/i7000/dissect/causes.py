@@ -45,10 +45,11 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
     upper = body.upper()
     if upper != body and _name(reader, upper, asked):
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
-    if asked is not None and body[:1] == b">" and len(body) % len(_BLANK_FIELD) == 1:
+    if asked is not None and body[:1] == b">":
         yield from _format_causes(body, known, asked)
         yield from _model_causes(body, known, asked)
-        for count in range(1, _MOST_STRIPPED):
+        whole = len(body) % len(_BLANK_FIELD) == 1
+        for count in range(1, _MOST_STRIPPED if whole else 0):
             if _name(reader, body + _BLANK_FIELD.encode() * count, asked):
                 channels = "the last channel is" if count == 1 else f"the last {count} channels are"
                 yield f"{count * len(_BLANK_FIELD)} blanks short: {channels} disabled, and the log has lost the blanks?"
@@ -74,9 +75,15 @@ def _model_causes(body: bytes, known: Known, asked: bytes) -> Iterator[str]:
 def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator[str]:
     plain = reader_of(evolve(known, checksum=False))
     shorter, last = body[:-2], body[-2:].decode("ascii", "replace")
-    if known.checksum and _name(plain, body, asked):
-        yield f"without a checksum it is {_name(plain, body, asked)}; the checksum would be {dcon.checksum(body):02X}"
-    elif (asked or is_command(body)) and _name(plain, shorter, asked) and not last.strip("0123456789abcdefABCDEF"):
+    name = _name(plain, body, asked) if known.checksum else None
+    if name:
+        yield f"without a checksum it is {name}; the checksum would be {dcon.checksum(body):02X}"
+    elif (
+        body
+        and (asked or is_command(body))
+        and _name(plain, shorter, asked)
+        and not last.strip("0123456789abcdefABCDEF")
+    ):
         name, right = _name(plain, shorter, asked), f"{dcon.checksum(shorter):02X}"
         if last.upper() == right:
             yield f"{last} is the checksum of {name}; no checksum was expected"

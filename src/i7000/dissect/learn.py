@@ -13,11 +13,12 @@ from i7000 import dcon, modbus
 from i7000.dissect.known import Fact, Knowledge, Known, Module, fact_words, lacking_type
 from i7000.dissect.meaning import Item, Meaning
 from i7000.dissect.registers import items
+from i7000.modbus.request import LAST_ADDRESS
 from i7000.models import Firmware, Model
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["learn", "with_facts"]
+__all__ = ["learn", "teaches", "with_facts"]
 
 
 _REMEMBERED = 256
@@ -37,12 +38,24 @@ def learn(
     moved = _new_address(meaning)
     if moved in (None, address) and not _has_news(meaning, module, shown):
         return knowledge, ()
+    learned, wrong = _learned(module, _all_facts(meaning, module, shown, where))
+    if learned is not module:
+        knowledge = knowledge.put(address, learned)
+    if moved not in (None, address):
+        knowledge = knowledge.move(address, moved)
+    return knowledge, tuple(wrong)
+
+
+def _learned(module: Module, facts: Iterable[Fact]) -> tuple[Module, list[str]]:
+    """Return a module with these facts, and what of them contradicts what was known."""
     learned, wrong = module, []
-    for fact in _all_facts(meaning, module, shown, where):
+    for fact in facts:
         before = module.facts.get(fact.name)
         contradiction = _contradiction(module, before, fact)
         if contradiction:
             wrong.append(contradiction)
+            if fact.name == "name" and before is not None:
+                learned = Module(module.given)  # Another module has taken the place of the old one.
         if _is_new(before, fact):
             if before is not None and before.changed:
                 fact = evolve(fact, changed=True)  # noqa: PLW2901 - what was given does not come back
@@ -50,11 +63,7 @@ def learn(
             if after is learned:
                 wrong.append(_impossible(learned, fact))
             learned = after
-    if learned is not module:
-        knowledge = knowledge.put(address, learned)
-    if moved not in (None, address):
-        knowledge = knowledge.move(address, moved)
-    return knowledge, tuple(wrong)
+    return learned, wrong
 
 
 @lru_cache(maxsize=_REMEMBERED)
@@ -72,6 +81,9 @@ def _all_facts(meaning: Meaning, module: Module, shown: tuple[str, ...], where: 
     facts = {fact.name: fact for fact in _facts_of(meaning, module.known, where)}
     profile = meaning.fit.profiles[0]
     facts |= {name: Fact(name, getattr(profile, name), where=where) for name in shown}
+    name = module.facts.get("name")
+    if name is not None and name.changed:
+        facts.pop("models", None)  # A name that was set does not show the model.
     yield from facts.values()
 
 
@@ -94,7 +106,7 @@ def _contradiction(module: Module, before: Fact | None, fact: Fact) -> str | Non
     if module.gives(fact.name) and not (before is not None and before.changed):
         given = evolve(fact, value=getattr(module.given, fact.name))
         return None if _agree(given, fact) else f"{fact_words(fact)}, but {fact_words(given)} was given"
-    if before is None or _agree(before, fact):
+    if before is None or before.value is None or _agree(before, fact):
         return None
     other = "; two modules on one address?" if fact.name in _NAMING else ""
     return f"{fact_words(fact)}, but {before.where} said {fact_words(before)}{other}"
@@ -147,7 +159,8 @@ def _facts_of(meaning: Meaning, known: Known, where: str) -> Iterator[Fact]:
                 Fact(name, value, where=where, changed=changed) for name, value in row(command, response, known)
             )
     if isinstance(command, dcon.SetConfiguration) and meaning.checksum is not None:
-        yield Fact("checksum", meaning.checksum, where=where, changed=True)
+        wanted = command.report_settings.checksum  # which holds from the next power-on, or at once in soft INIT mode
+        yield Fact("checksum", wanted if wanted is meaning.checksum else None, where=where, changed=True)
     changed = isinstance(command, _WRITES)
     for item in _sent(meaning) if changed else meaning.items:
         for name, value in _of_item(item, known):
@@ -159,11 +172,14 @@ def _new_address(meaning: Meaning) -> int | None:
     """Return the address that the module has from this response on, if the command changed it."""
     command, response = meaning.command, meaning.message
     done = isinstance(response, dcon.Acknowledged) or getattr(response, "result", 1) == 0
-    if done and isinstance(command, dcon.SetConfiguration | modbus.SetModuleAddress):
+    if done and isinstance(command, dcon.SetConfiguration):
         return command.new_address
-    if isinstance(command, _WRITES) and not isinstance(response, modbus.ExceptionResponse):
-        return next((item.value for item in _sent(meaning) if item.name == "module_address"), None)
-    return None
+    moved: int | None = None
+    if done and isinstance(command, modbus.SetModuleAddress):
+        moved = command.new_address
+    elif isinstance(command, _WRITES) and not isinstance(response, modbus.ExceptionResponse):
+        moved = next((item.value for item in _sent(meaning) if item.name == "module_address"), None)
+    return moved if moved is not None and 1 <= moved <= LAST_ADDRESS else None
 
 
 # --- DCON, and function 46h -------------------------------------------------------------------------------------------
@@ -296,3 +312,8 @@ _REGISTERS: Mapping[str | None, Callable[[Item, Known], _Pairs]] = {
 """The registers that decide how others, and frames, are read."""
 _TEACHING = frozenset((*_READ, *_SET, *_WRITES, *_AREAS_READ))
 """The commands whose responses show something."""
+
+
+def teaches(command: object) -> bool:
+    """Return whether the response to a command can show a setting."""
+    return type(command) in _TEACHING

@@ -63,11 +63,12 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     module = knowledge.of(_sender(wire, address, asked))
     read = _read_dcon(module, wire, None if asked is None else asked.wire)
     notes, contradictions = read.notes, read.contradictions
-    late = commands.unanswered
-    if asked is not None and late is not None and read.error is not None and _answers(module, wire, late):
-        read, asked = _read_dcon(module, wire, late.wire), late
-        notes, contradictions = read.notes, read.contradictions
-        notes = (*notes, f"a late answer: {late.place.where} asked for it, before the last command")
+    late = _late(line, wire, read)
+    if late is not None:
+        asked, address, module = late
+        read = _read_dcon(module, wire, asked.wire)
+        notes = (*read.notes, f"a late answer: {asked.place.where} asked for it, before the last command")
+        contradictions = read.contradictions
     elif asked is None and before is not None and _answers(module, wire, before):
         if wire == answer:
             notes = (*notes, f"the same again: an answer to {before.place.where} that was printed twice?")
@@ -92,6 +93,17 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     )  # fmt: skip
 
 
+def _late(line: Line, wire: bytes, read: "_Read") -> tuple[Asked, int | None, Module] | None:
+    """Return the command before the last that a response answers, its address and module; None if it does not."""
+    asked, late, _, _ = line.commands
+    if asked is None or late is None or (read.error is None and not read.dropped):
+        return None
+    own = _dcon_address(wire)
+    address = late.address if own is None else own
+    module = line.knowledge.of(_sender(wire, address, late))
+    return (late, address, module) if _answers(module, wire, late) else None
+
+
 def _sender(wire: bytes, address: int | None, asked: Asked | None) -> int | None:
     """Return the address that a module had when it was asked: what accepts a new address answers with that (2.1)."""
     if asked is not None and asked.wire[:1] == b"%" and asked.wire[3:5] == wire[1:3]:
@@ -101,7 +113,7 @@ def _sender(wire: bytes, address: int | None, asked: Asked | None) -> int | None
 
 def _answers(module: Module, wire: bytes, asked: Asked) -> bool:
     read = _read_dcon(module, wire, asked.wire)
-    return read.answers and read.error is None
+    return read.answers and read.error is None and not read.dropped
 
 
 class _Read(NamedTuple):

@@ -9,7 +9,7 @@ from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, updated
 from i7000.dissect.known import Known
-from i7000.dissect.learn import learn, with_facts
+from i7000.dissect.learn import learn, teaches, with_facts
 from i7000.dissect.meaning import Meaning
 from i7000.dissect.modbus import ModbusRead, ModbusReader
 from i7000.errors import DecodeError, EncodeError, Fault
@@ -60,7 +60,7 @@ def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tup
     answers = same_as = None
     candidates: tuple[Meaning, ...] = ()
     requests = line.requests
-    if asked and wire == asked.wire and not asked.echoed and (meaning is None or echoes):
+    if asked and wire == asked.wire and not asked.echoed and not sent and (meaning is None or echoes):
         requests = Requests(evolve(asked, echoed=True), in_step, echoes=True)
         direction, meaning, same_as = Direction.ECHO, asked.meaning, asked.place
         notes = (f"the same as {asked.place.where}: a 2-wire adapter's echo, or asked again",)
@@ -101,5 +101,7 @@ def _request_notes(request: Meaning, alone: Meaning | None, fault: DecodeError |
         yield f"or a wrong response to {asked.place.where}: {fault}"
     elif alone and not asked and not in_step:
         yield f"or a response, {type(alone.message).__name__}, of which the request is not there"
+    if getattr(request.message, "address", None) == modbus.BROADCAST and teaches(request.message):
+        yield "a broadcast: no module confirms it, so whether its settings hold is unknown"
     yield from register_notes(request)
     yield from address_notes(getattr(request.message, "address", None), line.knowledge)

@@ -14,7 +14,7 @@ import re
 from i7000.dissect.finder import find
 from i7000.dissect.patterns import pattern
 
-__all__ = ["is_repeat"]
+__all__ = ["is_repeat", "sent"]
 
 _OUT = pattern(
     r"\b(?:tx[dw]?|send(?:ing)?|sent|writ(?:e|es|ing|ten)|wrote|request|query|command|out)\b|[-=>]>", re.IGNORECASE
@@ -41,6 +41,16 @@ def is_repeat(first: str, second: str) -> bool:
     if direction != direction_again:
         return False
     return any(map(_HANDLED.match, new)) or spelled.casefold() != spelled_again.casefold()
+
+
+def sent(line: str) -> bool | None:
+    """Return whether the words before the frame of a line show that the host sent it; None if they do not.
+
+    >>> sent("TX: $012"), sent("RX: $012"), sent("$012")
+    (True, False, None)
+    """
+    before, _ = _parted(line)
+    return _direction(before)
 
 
 def _parted(line: str) -> tuple[str, str]:

@@ -22,6 +22,8 @@ from i7000.settings import Protocol
 __all__ = ["Piece", "pieces"]
 
 
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+"""What terminals take for a colour; many loggers write it around a line."""
 _CLOSING = re.compile(r"[\])}>\"'`,;hH]*")
 """What closes the spelling of a byte or of a frame."""
 
@@ -76,10 +78,11 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
     parts: list[_Part] = []
     for number, line in lines:
         text = without_end(line) if line[-1:] == "\n" else line
-        plain = find_plain(text)
+        clean = _COLOUR.sub(_blanks, text) if "\x1b" in text else text
+        plain = find_plain(clean)
         found: tuple[Found, ...] = ()
         if plain is None:
-            found, part = read_line(text)
+            found, part = read_line(clean)
             if part and (parts or _begins(part)):
                 parts.append(_Part(number, text, found, part))
                 yield from map(marked, _complete(parts, protocol))
@@ -92,6 +95,10 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
         else:
             yield marked(_new(Piece, (number, number, text, plain[0], plain[1], None)))
     yield from map(marked, _apart(parts, protocol))
+
+
+def _blanks(found: re.Match[str]) -> str:
+    return " " * len(found[0])
 
 
 class _Repeats:
