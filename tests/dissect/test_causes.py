@@ -194,16 +194,16 @@ def test_an_address_in_decimal_is_noticed_by_modbus_too() -> None:
 def test_a_type_that_is_set_and_that_the_model_does_not_have_is_noticed() -> None:
     heard = last_heard("%0101080600", known=I_7018)
 
-    assert heard.notes == ("type 08, -10..10 V: none that an I-7018 can have; it answers ?AA",)
+    assert heard.notes == ("an I-7018 has no type 08, -10..10 V; it answers ?AA",)
     assert heard.error is None
 
 
 def test_a_type_that_is_read_and_that_the_model_does_not_have_contradicts_it() -> None:
     assert last_heard("!01080600", known=I_7018).notes == (
-        "type 08, -10..10 V: none that an I-7018 can have; another model?",
+        "an I-7018 has no type 08, -10..10 V; another model?",
     )
     assert last_heard("$012", "!01080600", known=I_7018).contradictions == (
-        "type 08, -10..10 V: none that an I-7018 can have; another model?",
+        "an I-7018 has no type 08, -10..10 V; another model?",
     )
 
 

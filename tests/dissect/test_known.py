@@ -250,11 +250,11 @@ def test_facts_have_words(name: str, value: Any, words: str) -> None:
 @pytest.mark.parametrize(
     ("known", "code", "said"),
     [
-        (Known(Model.I_7018), 0x08, "type 08, -10..10 V: none that an I-7018 can have"),
+        (Known(Model.I_7018), 0x08, "an I-7018 has no type 08, -10..10 V"),
         (
             Known(models=(Model.I_7018, Model.M_7018)),
             0x99,
-            "type 99, not defined: none that an I-7018 or M-7018 can have",
+            "an I-7018 or M-7018 has no type 99, not defined",
         ),
         (Known(Model.I_7018), 0x0F, None),
         (Known(Model.I_7018), 0xFF, None),

@@ -241,17 +241,17 @@ def test_a_module_moves_by_modbus_too(frames: tuple[bytes, bytes], addresses: li
         (
             Known(Model.I_7018),
             ["$012", "!01080600"],
-            "type 08, -10..10 V: none that an I-7018 can have; another model?",
+            "an I-7018 has no type 08, -10..10 V; another model?",
         ),
         (
             Known(Model.I_7018),
             ["%0101080600", "!01"],
-            "type 08, -10..10 V: none that an I-7018 can have; another model?",
+            "an I-7018 has no type 08, -10..10 V; another model?",
         ),
         (
             Known(Model.M_7018),
             exchange(modbus.ReadTypeCode(1, 0), modbus.TypeCodeSetting(1, 0x08)),
-            "type 08, -10..10 V: none that an M-7018 can have; another model?",
+            "an M-7018 has no type 08, -10..10 V; another model?",
         ),
         (
             Known(Model.I_7018, data_format=DataFormat.HEX),
@@ -305,7 +305,7 @@ def test_a_type_that_no_module_of_the_learned_name_has_is_not_learned() -> None:
 
     assert "types" not in learned(*frames)
     assert last_heard(*frames).contradictions == (
-        "type 08, -10..10 V: none that an I-7018 or M-7018 can have; another model?",
+        "an I-7018 or M-7018 has no type 08, -10..10 V; another model?",
     )
 
 

@@ -340,12 +340,12 @@ def lacking_type(known: Known, code: int | None) -> str | None:
     """Return a note that a module cannot have a type; None if it can, or if its model is unknown.
 
     >>> lacking_type(Known(Model.I_7018), 0x08)
-    'type 08, -10..10 V: none that an I-7018 can have'
+    'an I-7018 has no type 08, -10..10 V'
     """
     models = (known.model,) if known.model else known.models
     if code in (None, MIXED) or not models or any(profile.supports(code) for profile in known.all):
         return None
-    return f"type {describe.type_code(code)}: none that {fact_words(Fact('models', models))} can have"
+    return f"{fact_words(Fact('models', models))} has no type {describe.type_code(code)}"
 
 
 def fact_words(fact: Fact) -> str:
