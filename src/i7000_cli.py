@@ -62,19 +62,30 @@ def program(run: "Callable[[], int]") -> int:
     end_at_ctrl_c()
     code = run()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    failure = _flushed(sys.stdout)
+    if failure is not None:
+        if not isinstance(failure, BrokenPipeError):
+            if code != FAILED and sys.stderr is not None:  # else it was reported when it happened
+                with suppress(OSError):
+                    sys.stderr.write(f"the output cannot be written: {failure.strerror}\n")
+            code = FAILED
+        else:
+            code = CLOSED
+    _flushed(sys.stderr)
+    return code
+
+
+def _flushed(file: "TextIO | None") -> "OSError | None":
+    """Write what is left for a file; return why that fails, and discard it then, before Python tries when it ends."""
+    if file is None:
+        return None
     try:
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        file.flush()
     except OSError as error:
         nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())  # for what is left, which Python writes when it ends
-        if isinstance(error, BrokenPipeError):
-            return CLOSED
-        if code != FAILED and sys.stderr is not None:  # else it was reported when it happened
-            with suppress(OSError):
-                sys.stderr.write(f"the output cannot be written: {error.strerror}\n")
-        return FAILED
-    return code
+        os.dup2(nowhere, file.fileno())
+        return error
+    return None
 
 
 def end_at_ctrl_c() -> None:

@@ -117,3 +117,9 @@ def test_what_contradicts_the_factory_default_is_a_note_and_costs_nothing(run: R
 
     assert "note            not as from the factory: another type\n" in result.out
     assert result.code == 0
+
+
+def test_two_modules_at_one_address_are_refused() -> None:
+    refused = refusal(lambda: Module(("1=I-7018", "1=I-7017")).knowledge("auto"))
+
+    assert refused == "two modules have the address 01: give each its own"

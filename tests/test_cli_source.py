@@ -228,3 +228,23 @@ def test_memory_does_not_grow_with_a_log(log: bytes, protocol: str, tmp_path: Pa
     assert (
         large < small + 2_000
     )  # kB; before, a line that was not understood took 75 bytes, and a long one 80 times its length
+
+
+def test_a_log_in_utf_16_is_read_in_utf_8_wherever_its_pieces_end() -> None:
+    log = "TX: $012\r\nRX: !010F0600\r\n".encode("utf-16")
+    pieces = [log[:2], *(log[at : at + 3] for at in range(2, len(log), 3))]
+
+    lines = list(Lines(Pieces(pieces), lambda: None))
+
+    assert [line for _, line in lines] == [b"TX: $012\r\n", b"RX: !010F0600\r\n"]
+
+
+def test_a_stream_has_an_empty_piece_for_each_silence(pipe: tuple[io.BufferedReader, int]) -> None:
+    stream, ours = pipe
+    found = source.chunks(stream, lambda: None)
+    os.write(ours, b"$012\r")
+    first, silence = next(found), next(found)
+    os.write(ours, b"!01\r")
+    os.close(ours)
+
+    assert (first, silence, *found) == (b"$012\r", b"", b"!01\r")

@@ -74,7 +74,7 @@ class Message:
     _instead: ClassVar[str] = "one of the messages, such as ReadConfiguration"
     """The classes to construct in place of a base class, which has no section."""
 
-    if not TYPE_CHECKING:  # attrs knows its arguments
+    if not TYPE_CHECKING:  # pragma: no branch - attrs knows its arguments
         __init__ = ConstructedOnce()
 
     def _values(self) -> dict[str, Any]:

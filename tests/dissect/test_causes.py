@@ -199,9 +199,7 @@ def test_a_type_that_is_set_and_that_the_model_does_not_have_is_noticed() -> Non
 
 
 def test_a_type_that_is_read_and_that_the_model_does_not_have_contradicts_it() -> None:
-    assert last_heard("!01080600", known=I_7018).notes == (
-        "an I-7018 has no type 08, -10..10 V; another model?",
-    )
+    assert last_heard("!01080600", known=I_7018).notes == ("an I-7018 has no type 08, -10..10 V; another model?",)
     assert last_heard("$012", "!01080600", known=I_7018).contradictions == (
         "an I-7018 has no type 08, -10..10 V; another model?",
     )

@@ -304,9 +304,7 @@ def test_a_type_that_no_module_of_the_learned_name_has_is_not_learned() -> None:
     frames = ["$01M", "!017018", "$012", "!01080600"]
 
     assert "types" not in learned(*frames)
-    assert last_heard(*frames).contradictions == (
-        "an I-7018 or M-7018 has no type 08, -10..10 V; another model?",
-    )
+    assert last_heard(*frames).contradictions == ("an I-7018 or M-7018 has no type 08, -10..10 V; another model?",)
 
 
 def test_names_by_both_protocols_leave_the_models_that_have_both() -> None:

@@ -16,10 +16,24 @@ import pytest
 import serial
 from attrs import frozen
 
-from i7000 import BaudRate, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit, dcon, modbus
+from i7000 import (
+    BaudRate,
+    Fault,
+    LineSettings,
+    Model,
+    Noise,
+    Profile,
+    Protocol,
+    ReportSettings,
+    TypeCode,
+    Unit,
+    dcon,
+    modbus,
+)
 from i7000.device import OPEN_WIRE, Signal
 from i7000.examples import async_driver, sync_driver
-from i7000.host import Answered, AnyCommand, Bus, Declined, Outcome, Policy, Sent, TimedOut
+from i7000.examples.task import Task
+from i7000.host import Answered, AnyCommand, Bus, Declined, Outcome, Policy, Rejected, Sent, TimedOut
 from i7000.simulator.faults import Faults
 from i7000.simulator.pseudo_terminal import open_pty
 from i7000.simulator.sources import Fixed, Sources
@@ -363,3 +377,22 @@ def test_a_driver_is_short(driver: ModuleType) -> None:
     lines = getsource(driver.Driver).splitlines()
 
     assert len(lines) < 60
+
+
+@pytest.mark.parametrize(
+    ("rejected", "text"),
+    [
+        (None, ""),
+        (Rejected(b"?01\r", Fault.LENGTH, "57 characters"), "last rejected frame: b'?01\\r': 57 characters\n"),
+        (Noise(b"\xff", Fault.LEADING), "last rejected frame: b'\\xff': leading\n"),
+    ],
+    ids=["nothing", "a frame", "noise"],
+)
+def test_what_was_rejected_is_printed_beside_a_timeout(
+    rejected: Rejected | Noise | None, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = dcon.ReadAnalogInputs(0x01)
+    task = Task("", Bus[Any](FAST), PROFILE, command)
+
+    assert task.show(TimedOut(command), rejected) == 1
+    assert capsys.readouterr().out == f"{TimedOut(command)}\n{text}"

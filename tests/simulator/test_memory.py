@@ -94,18 +94,12 @@ def test_one_setting_that_changes_is_one_line_of_a_diff_besides_the_crc(path: Pa
     assert [line.split(":")[0].strip() for line in changed] == ['"crc"', '"cjc_offset"']
 
 
-def test_a_full_log_is_saved_and_loaded_fast(path: Path) -> None:
+def test_a_full_log_is_saved_and_loaded(path: Path) -> None:
     records = tuple(Record(index, tuple(range(index, index + 16)), index) for index in range(CAPACITY))
     full = evolve(factory(Model.M_7017mC_16), log=Log(records=records))
-    durations = []
-    for _ in range(5):
-        began = process_time()
-        save(path, [full])
-        loaded = load(path)
-        durations.append(process_time() - began)
+    save(path, [full])
 
-    assert loaded == (full,)
-    assert min(durations) < 0.2
+    assert load(path) == (full,)
 
 
 # --- edited and damaged files -----------------------------------------------------------------------------------------

@@ -110,8 +110,7 @@ class ModbusReader:
         known = self._known
         for name, value in (("types", profile.type_codes), ("modbus_data_format", profile.modbus_data_format)):
             origin = Origin.ASSUMED if getattr(known, name) is None else Origin.GIVEN
-            if value != ():
-                yield Fact(name, value, origin)
+            yield Fact(name, value, origin)
 
 
 _READING = attrgetter("reading")
