@@ -2,6 +2,9 @@
 
 import json
 
+import pytest
+
+from i7000.cli import records
 from i7000.cli.readers import of_lines
 from i7000.cli.records import json_of, meaning_record
 from i7000.dissect import Knowledge, Known
@@ -33,3 +36,15 @@ def differing(wires: list[str], profile: Record) -> list[str]:
 
 def test_the_json_of_a_meaning_is_that_of_its_record() -> None:
     assert [text for wires, profile in EXCHANGES for text in differing(wires, profile)] == []
+
+
+def test_the_json_is_the_same_if_nothing_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = list(enumerate(("$012", "!010F0600", ">+0025.1", "$022", "!020F0600"), 1))
+
+    def all_json() -> list[str]:
+        return [json_of(read) for read in of_lines(lines, Knowledge.given(Known(checksum=False)), None)]
+
+    remembered = all_json()
+    monkeypatch.setattr(records, "_REMEMBERED", 0)
+
+    assert all_json() == remembered

@@ -140,7 +140,7 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
         yield f"damaged? {cut} would have the CRC {_crc(wire[:-2])}"
     elif cut_name := next(filter(None, (_cut(reader, wire[start:]) for start in (0, 1))), None):
         yield cut_name
-    elif len(wire) >= modbus.SHORTEST_FRAME and sum(byte in _LIKE_NOISE for byte in wire) * 2 > len(wire):
+    elif sum(byte in _LIKE_NOISE for byte in wire) * 2 > len(wire):
         yield "noise: another baud rate or parity?"
 
 
@@ -166,8 +166,6 @@ def _meant(reader: ModbusReader, body: bytes) -> str | None:
 
 def _cut(reader: ModbusReader, wire: bytes) -> str | None:
     """Return a note that a frame is a message without its last byte, if it is one."""
-    if len(wire) < modbus.SHORTEST_FRAME:
-        return None
     low, high = modbus.seal(wire[:-1])[-2:]
     name = _meant(reader, wire[:-1]) if low == wire[-1] else None
     return name and f"cut: {name} without its last byte, {high:02X}"
