@@ -63,14 +63,13 @@ def program(run: "Callable[[], int]") -> int:
     code = run()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     failure = _flushed(sys.stdout)
-    if failure is not None:
-        if not isinstance(failure, BrokenPipeError):
-            if code != FAILED and sys.stderr is not None:  # else it was reported when it happened
-                with suppress(OSError):
-                    sys.stderr.write(f"the output cannot be written: {failure.strerror}\n")
-            code = FAILED
-        else:
-            code = CLOSED
+    if isinstance(failure, BrokenPipeError):
+        code = CLOSED
+    elif failure is not None:
+        if code != FAILED and sys.stderr is not None:  # else it was reported when it happened
+            with suppress(OSError):
+                sys.stderr.write(f"the output cannot be written: {failure.strerror}\n")
+        code = FAILED
     _flushed(sys.stderr)
     return code
 

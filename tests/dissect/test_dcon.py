@@ -76,7 +76,7 @@ def can_be_asked(asked: bytes, known: Known) -> bool:
 
 
 def agree(frame: bytes, asked: bytes | None, known: Known, reader: DconReader) -> None:
-    """Hold what profiles read in groups against what each of them reads."""
+    """Check that what profiles read in groups is what each of them reads."""
     try:
         meanings = reader.meanings(frame, asked)
     except DecodeError:
