@@ -34,6 +34,7 @@ RINGS = {
     "__main__": 4,
     "examples": 4,
     "simulator": 4,
+    "recording": 4,
     "conformance": 4,
 }
 EXTRAS = {
