@@ -171,18 +171,18 @@ def test_a_report_that_shows_the_data_format_teaches_it() -> None:
         ("!01080600", ">" + "7FFF" * 8, ("not data format engineering, which frame 2 said",)),
     ],
 )
-def test_what_was_learned_and_does_not_fit_a_report_is_dropped_and_costs_the_exit_code(
+def test_what_was_learned_and_does_not_fit_two_reports_is_dropped_and_costs_the_exit_code(
     configuration: str, report: str, said: tuple[str, ...]
 ) -> None:
-    _, heard = hear_all(line_of(Known(Model.I_7017)), ["$012", configuration, "#01", report, "#01", report])
+    _, heard = hear_all(line_of(Known(Model.I_7017)), ["$012", configuration, *["#01", report] * 3])
 
-    assert heard[3].contradictions == said
+    assert heard[3].contradictions == heard[5].contradictions == said
     assert names(heard[3]) == ["AnalogInputs"]
-    assert heard[5].understood
+    assert heard[7].understood
 
 
-def test_a_fact_that_a_report_contradicts_is_no_longer_known() -> None:
-    line, _ = hear_all(line_of(Known(Model.I_7017)), ["$012", "!01080600", "#01", REPORT])
+def test_a_fact_that_two_reports_contradict_is_no_longer_known() -> None:
+    line, _ = hear_all(line_of(Known(Model.I_7017)), ["$012", "!01080600", *["#01", REPORT] * 2])
 
     assert sorted(line.knowledge.of(0x01).facts) == ["checksum", "data_format", "line_settings"]
 
