@@ -10,13 +10,13 @@ from time import monotonic, sleep
 import pytest
 from attrs import evolve
 
-from i7000 import Model, Noise, Profile, Protocol, Unit, modbus
+from i7000 import Model, Noise, Profile, Protocol, ReportSettings, Unit, dcon, modbus
 from i7000.device import Eeprom, Signal
-from i7000.simulator.faults import Faults
+from i7000.simulator.faults import Faults, Way
 from i7000.simulator.memory import MemoryFileError
 from i7000.simulator.observed import Observed
 from i7000.simulator.pseudo_terminal import open_pty
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, UNREAD, Host, Simulator
+from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, UNREAD, Host, Simulated, Simulator
 from i7000.simulator.sources import Fixed, Sources
 from i7000.simulator.tcp import listen
 from tests.simulator.running import I_7018, SAID, TRANSPORTS, ask, connected, module, port, running
@@ -262,6 +262,46 @@ def test_of_what_is_lost_altogether_not_all_is_remembered() -> None:
 
     assert told.faults[-1] == "byte 3999 lost"
     assert len(told.faults) == 16
+
+
+def conversed(faults: Faults, *frames: bytes, modules: Sequence[Simulated] = (I_7018,)) -> list[bytes]:
+    """What arrives after each frame that a host sends."""
+    answers: list[bytes] = []
+
+    async def converse() -> None:
+        host = Host(Simulator(modules, faults=faults), "host", answers.append)
+        for frame in frames:
+            host.receive(frame)
+
+    asyncio.run(converse())
+    return answers
+
+
+def test_a_fault_of_one_address_leaves_the_other_modules_alone() -> None:
+    other = module(Model.I_7017, address=2)
+
+    answers = conversed(Faults().at(0x01, silent=1.0), b"$01M\r", b"$02M\r", modules=(I_7018, other))
+
+    assert answers == [b"!027017\r"]
+
+
+def test_the_answer_to_an_earlier_command_is_that_to_the_last_different_one() -> None:
+    answers = conversed(Faults(replay=1.0), b"$01M\r", b"$01M\r", b"$016\r", b"$016\r", b"$01M\r")
+
+    assert answers == [b"!017018\r", b"!017018\r", b"!017018\r", b"!017018\r", b"!01FF\r"]
+
+
+def test_a_refusal_has_the_checksum_of_its_module() -> None:
+    checked = module(Model.I_7018, report_settings=ReportSettings(checksum=True))
+
+    answers = conversed(Faults(refuse=1.0), dcon.seal(b"$01M", checksum=True), modules=(checked,))
+
+    assert answers == [dcon.seal(b"?01", checksum=True)]
+
+
+def test_requests_can_be_lost_while_answers_are_not() -> None:
+    assert conversed(Faults().at(Way.FROM, drop=1.0), b"$01M\r") == [b""]
+    assert conversed(Faults().at(Way.TO, drop=1.0), b"$01M\r") == []
 
 
 # --- what modules remember --------------------------------------------------------------------------------------------

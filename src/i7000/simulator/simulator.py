@@ -15,7 +15,7 @@ from attrs import evolve, frozen
 
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
 from i7000.errors import I7000Error, Noise
-from i7000.simulator.faults import Faults, Piece
+from i7000.simulator.faults import Exchange, Faults, Piece
 from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
 from i7000.simulator.observed import Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
@@ -137,8 +137,8 @@ class Simulator:
         self.bus = bus
         return True
 
-    def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
-        """Report an event to the observer of the line."""
+    def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
+        """Report what modules heard, and their answer, to the observer of the line."""
         if self.observe:
             at = self.now - self._began
             deaf = deaf_module(self.bus.modules, heard)
@@ -189,6 +189,10 @@ class Host:
         self._faults: tuple[str, ...] = ()
         self._noises: list[tuple[Heard, tuple[str, ...]]] = []
         """Noise that may be a frame of the other protocol, once the line is silent."""
+        self._last_request: bytes | None = None
+        self._last_answer: bytes | None = None
+        self._earlier: bytes | None = None
+        """The answer to the last request that differed from the last one."""
         self._not_understood = b""
         """The bytes received since the line was silent, or since the last frame."""
 
@@ -197,7 +201,7 @@ class Host:
         simulator = self.simulator
         if simulator.faults.echo:
             self._write(data)
-        carried, faults = simulator.faults.carried(data, simulator.chance)
+        carried, faults = simulator.faults.requests.carried(data, simulator.chance)
         self._faults = (*self._faults, *faults)[-_MOST_FAULTS:]
         signals, now = simulator.signals, simulator.now
         bus, ear, told = simulator.bus.hear(self.ear, carried, signals, now)
@@ -207,7 +211,7 @@ class Host:
         self._not_understood += carried
         self._take(bus, ear, told)
         if len(self._not_understood) > LONGEST:
-            self._tell_noises()
+            self._report_noises()
 
     @property
     def uart(self) -> Uart | None:
@@ -239,7 +243,7 @@ class Host:
                 self._faults = (*chain(*[faults for _, faults in self._noises]), *self._faults)[-_MOST_FAULTS:]
                 self._noises.clear()
         self._take(bus, ear, told)
-        self._tell_noises()
+        self._report_noises()
         self._stop_waiting()
         self._check_finished()
 
@@ -254,29 +258,31 @@ class Host:
             if isinstance(heard.frame, Noise):
                 self._noises.append((heard, faults))
                 continue
-            self._tell_noises()
-            happened = faults if heard.answer is None else (*faults, *self._answer(heard.answer, heard.delay))
-            self.simulator.tell(self.name, heard, happened)
+            self._report_noises()
+            happened = faults if heard.answer is None else (*faults, *self._answer(heard.frame, heard.answer, heard))
+            self.simulator.observed(self.name, heard, happened)
         self._stop_waiting()
         if ear.waiting or self._noises:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
 
-    def _tell_noises(self) -> None:
+    def _report_noises(self) -> None:
         """Report the noise collected so far."""
         noises, self._noises = self._noises, []
         self._not_understood = b""
         for heard, faults in noises:
-            self.simulator.tell(self.name, heard, faults)
+            self.simulator.observed(self.name, heard, faults)
 
     def _stop_waiting(self) -> None:
         if self._silence:
             self._silence.cancel()
             self._silence = None
 
-    def _answer(self, answer: bytes, delay: float) -> tuple[str, ...]:
+    def _answer(self, request: bytes, answer: bytes, heard: Heard) -> tuple[str, ...]:
         """Send a response, and return its faults."""
         character_time = (self.uart or Uart()).character_time
-        transfer = self.simulator.faults.delivered(answer, character_time, self.simulator.chance)
+        exchange = self._exchange(request, answer, heard)
+        faults, delay = self.simulator.faults.answers(exchange.address), heard.delay
+        transfer = faults.delivered(answer, character_time, self.simulator.chance, exchange)
         late = [piece for piece in transfer.pieces if delay + piece.after]
         if late and not self._has_room(late):
             self.simulator.notice(_LOST)
@@ -287,6 +293,14 @@ class Host:
             else:
                 self._write(piece.wire)
         return transfer.faults
+
+    def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
+        """Return the exchange of an answer, and remember the answer."""
+        if request != self._last_request:
+            self._last_request, self._earlier = request, self._last_answer
+        self._last_answer = answer
+        checksum = heard.profile is not None and heard.profile.checksum
+        return Exchange(request, heard.protocol, checksum, self._earlier)
 
     def _has_room(self, late: Sequence[Piece]) -> bool:
         size = sum(self._later.values()) + sum(len(piece.wire) for piece in late)
