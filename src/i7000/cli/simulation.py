@@ -207,7 +207,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
                 simulator.observe = partial(_show_lines, printer, out)
             elif simulated.view == "live":
                 simulator.report = None
-                view = View(simulator.modules, printer.out, places, simulator.notices)
+                view = View(lambda: [it[:2] for it in simulator.modules()], printer.out, places, simulator.notices)
                 simulator.observe = opened.enter_context(view).show
             await simulator.run()
 
