@@ -33,6 +33,7 @@ RINGS = {
     "spec": 4,
     "__main__": 4,
     "examples": 4,
+    "link": 4,
     "simulator": 4,
     "recording": 4,
     "conformance": 4,
@@ -41,6 +42,7 @@ EXTRAS = {
     "strategies": {"hypothesis"},
     "cli": {"cyclopts", "rich"},
     "examples": {"serial"},
+    "link": {"serial"},
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
