@@ -29,7 +29,7 @@ class Port:
         self.timeout: float | None = None
         self.time = 0.0
         self.written: list[bytes] = []
-        self._coming: list[tuple[float, int, bytes]] = []
+        self._coming: list[tuple[float, int, int]] = []
         self._order = count()
         self._free_at = 0.0
         self._received = bytearray()
@@ -46,26 +46,25 @@ class Port:
     def write(self, wire: bytes) -> int:
         self.written.append(wire)
         for piece in self.answer(wire, self.time):
-            heapq.heappush(self._coming, (self.time + piece.after, next(self._order), piece.wire))
+            for byte in piece.wire:
+                heapq.heappush(self._coming, (self.time + piece.after, next(self._order), byte))
         return len(wire)
 
     @property
     def in_waiting(self) -> int:
-        while self._coming and self._carried(self._coming[0]) <= self.time:
-            piece = heapq.heappop(self._coming)
-            self._free_at = self._carried(piece)
-            self._received += piece[2]
+        while self._coming and self._next_at(self.time) <= self.time:
+            self._free_at = self._next_at(self.time)
+            self._received.append(heapq.heappop(self._coming)[2])
         return len(self._received)
 
-    def _carried(self, piece: tuple[float, int, bytes]) -> float:
-        """When the line has carried a piece."""
-        return max(self._free_at, piece[0]) + len(piece[2]) * self.character_time
+    def _next_at(self, otherwise: float) -> float:
+        """When the line has carried the next byte."""
+        return max(self._free_at, self._coming[0][0]) + self.character_time if self._coming else otherwise
 
     def wait(self, until: float) -> None:
         """Let time pass until there is something to read, or until a time."""
         if not self.in_waiting:
-            at = self._carried(self._coming[0]) if self._coming else until
-            self.time = max(self.time, min(until, at))
+            self.time = max(self.time, min(until, self._next_at(until)))
 
     def read(self, size: int = 1) -> bytes:
         return self._read(lambda: self.in_waiting >= size, size)
@@ -76,10 +75,7 @@ class Port:
     def _read(self, enough: Callable[[], bool], size: int | None, end: bytes = b"") -> bytes:
         over = self.time + (self.timeout or 0.0)
         while not enough() and self.time < over:
-            waiting = self.in_waiting
-            at = self._carried(self._coming[0]) if self._coming else over
-            self.time = max(self.time, min(over, at))
-            assert self.in_waiting > waiting or self.time >= over
+            self.time = max(self.time, min(over, self._next_at(over)))
         stop = self._received.find(end) + len(end) if end and end in self._received else size
         data = bytes(self._received[:stop])
         del self._received[: len(data)]
