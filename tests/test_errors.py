@@ -124,7 +124,7 @@ def test_only_what_is_sent_or_what_a_module_can_be_is_an_encode_error() -> None:
         lambda: dcon.ReadAnalogInput(0x01, 256),
         lambda: Profile(Model.I_7018, single_ended=True),
         lambda: host.Policy(retries=-1),
-        lambda: host.wake(host.Bus[Any](), float("nan")),
+        lambda: host.receive(host.Bus[Any](), b"", float("nan")),
         lambda: device.Signal(float("inf"), Unit.VOLT),
         lambda: modbus.RegisterMap(Profile(Model.M_7017)).plan(1, ["filter"]).decode([]),
     ):
