@@ -116,6 +116,7 @@ def test_what_means_many_commands_lists_them(run: Run, name: str, count: int) ->
         ("47", "there is no command '47'"),
         ("Set", "there is no command 'Set'; did you mean SetTypeCode, "),
         ("ReadCoils --protocol dcon", "ReadCoils is a Modbus command: use --protocol rtu\n"),
+        ("ReadCoils --model I-7018", "I-7018 has no ReadCoils: M-7000 series only; M-7017 series and "),
         ("$AA2 --protocol rtu", "$AA2 is a DCON command: use --protocol dcon\n"),
         ("ReadCjcUpdate --model I-7018", "has no ReadCjcUpdate: 7019 series only, in Modbus M-7019 series only\n"),
     ],

@@ -73,9 +73,11 @@ def commands(
 
 
 def _scopes(kinds: Iterable[AnyCommand]) -> str:
-    """Return which models have commands."""
-    scopes = (f"{'in Modbus ' * issubclass(kind, modbus.Request)}{kind.availability.scope}" for kind in kinds)
-    return ", ".join(dict.fromkeys(scopes))
+    """Return which models have commands; of Modbus with that word, if there are others."""
+    scopes: dict[bool, dict[str, None]] = {}
+    for kind in kinds:
+        scopes.setdefault(issubclass(kind, modbus.Request), {})[kind.availability.scope] = None
+    return ", in Modbus ".join(", ".join(found) for found in scopes.values())
 
 
 def _listed(command: AnyCommand, models: list[str]) -> tuple[Record, Iterable[Line]]:
