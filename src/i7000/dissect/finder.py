@@ -42,9 +42,11 @@ class Line(NamedTuple):
     part: bytes
     """Where no frame is good, the bytes that the line spells in hex: a part of a frame that is cut over several lines,
     perhaps."""
+    start: int
+    """Where they begin."""
 
 
-_NOTHING = Line((), b"")
+_NOTHING = Line((), b"", 0)
 
 
 def find(text: str) -> tuple[Found, ...]:
@@ -104,16 +106,17 @@ def read_line(text: str) -> Line:
         for numbers in (loose_hex_runs, decimal_runs):
             fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
             good += [found for run in fresh for found in good_in_run(text, run)]
-    part = b"" if good else max(wires, key=len, default=b"")
+    longest = [] if good else max(runs, key=len, default=[])
+    part, start = wire_of(longest), longest[0].start if longest else 0
     if not good and not damaged:
-        return Line((), part)
+        return Line((), part, start)
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):
         if _is_free(taken, found):
             _take(taken, found)
             chosen.append(found)
-    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part)
+    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part, start)
 
 
 _LETTER = pattern("[A-Fa-f]")

@@ -13,10 +13,13 @@ from typing import NamedTuple
 from i7000.dissect.patterns import pattern
 
 __all__ = [
+    "DIRECTIONS",
+    "UNITS",
     "Byte",
     "Run",
     "decimal_runs",
     "hex_runs",
+    "in_url",
     "literal_runs",
     "loose_hex_runs",
     "text_of",
@@ -46,10 +49,15 @@ def wire_of(run: Run) -> bytes:
 
 _DATE = r"\d{3}([-/.])\d\d?\1\d\d?|\d?([/.])\d\d?\2\d{2,4}"
 _TIME = r"\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
-_UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
+DIRECTIONS = (
+    r"tx|rx|sent|send|recv|received?|writ(?:e|ten)|read|re(?:quest|sponse|ply)|query|answer|command|out|in|host|master"
+    r"|slave"
+)
+"""Words for the direction of a frame."""
+UNITS = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
 _NUMBERS = pattern(
     rf"\d(?:(?<![\w:.\-/].)(?:(?:{_DATE})(?:[T_ ]+\d{_TIME})?|{_TIME}|\d*\.\d+)(?!\w|[:.\-/]\w)"
-    rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
+    rf"|(?<!\w.)\d*(?=\s?(?:{UNITS})\b))",
     re.DOTALL,
 )
 """Dates, times, decimal fractions, and numbers with a unit: they look like bytes, and are not.
@@ -212,33 +220,51 @@ _LINE_FEEDS = rf"""
     [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
     | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
 """
-_SPELLED = pattern(
-    rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"
-    r"| \\x(?P<hex>[0-9A-Fa-f]{2}) | \\u00(?P<unicode>[0-9A-Fa-f]{2}) | \\(?P<octal>[0-3][0-7]{2})"
-    r"| (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)"
+_CHARACTER = rf"""
+    (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})
+    | \\x(?P<hex>[0-9A-Fa-f]{{2}}) | \\u00(?P<unicode>[0-9A-Fa-f]{{2}}) | \\(?P<octal>[0-3][0-7]{{2}})
+    | &\#(?P<decimal>\d{{2,3}}); | &\#[xX](?P<entity>[0-9A-Fa-f]{{2}});
+    | (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)
+"""
+_ENCODED = r"(?:2[1345]|3[EFef]|40|7[Ee])"
+_LEADING_IN_URL = rf"%{_ENCODED} (?: (?<=[=/?&]...) | (?= [^\s%]* %(?:0[Dd]|2[0ABDEabde]|3[Ee]) ) )"
+"""A character that begins a frame, as URLs write it: behind what is before a value, or with another one after it."""
+_SPELLED = pattern(f"(?sx) {_CHARACTER}")
+_SPELLED_IN_URL = pattern(
+    rf"(?sx) {_CHARACTER} | (?={_LEADING_IN_URL}) %(?P<lead>{_ENCODED}) | (?<=[0-9A-Za-z]) %(?P<inside>2[0ABDEabde])"
 )
+_URL = pattern(f"(?x) {_LEADING_IN_URL}")
 _MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
 """How all of these begin."""
 _CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
+_BASES = {"octal": 8, "decimal": 10}
 
 
-def text_of(text: str) -> tuple[str, Sequence[int]]:
+def in_url(text: str) -> bool:
+    """Return whether a line has the first character of a frame as URLs write it: ``cmd=%23012``, ``%23012%0D``."""
+    return "%" in text and bool(_URL.search(text))
+
+
+def text_of(text: str, *, url: bool = False) -> tuple[str, Sequence[int]]:
     r"""Replace every way to write a carriage return, a line feed, a blank and other characters by the character.
 
-    Shape: the characters, and where each begins in `text`; one place more is the end of `text`.
+    Shape: the characters, and where each begins in `text`; one place more is the end of `text`. With `url`, also the
+        characters that URLs encode.
 
     >>> text_of("#01<CR>")[0]
     '#01\r'
+    >>> text_of("cmd=%2301%0D", url=True)[0]
+    'cmd=#01\r'
     """
     if not _MAY_SPELL.search(text):
         return text, range(len(text) + 1)
     characters: list[str] = []
     places: list[int] = []
     at = 0
-    for found in _SPELLED.finditer(text):
+    for found in (_SPELLED_IN_URL if url else _SPELLED).finditer(text):
         kind = found.lastgroup or ""
         digits = found[kind]
-        plain = _CHARACTERS.get(kind) or chr(int(digits, 8 if kind == "octal" else 16))
+        plain = _CHARACTERS.get(kind) or chr(int(digits, _BASES.get(kind, 16)))
         characters += (text[at : found.start()], plain)
         places += range(at, found.start() + 1)
         at = found.end()
