@@ -65,9 +65,10 @@ _NUMBERS = pattern(
 All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
 """
 _OFFSET = pattern(
-    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$)))"
+    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+    r"|\d+-\d+(?=\s+[^\W\d]{3}))"
 )
-"""The offset at the start of a row of a dump."""
+"""The offset at the start of a row of a dump, or the samples that a byte takes: ``1000-1009 UART``."""
 
 
 def without_numbers(text: str) -> str:
@@ -79,7 +80,7 @@ def without_numbers(text: str) -> str:
 
 
 _HEX = pattern(
-    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]|u00)([0-9A-Fa-f]{2})"
+    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]\{?|u00)([0-9A-Fa-f]{2})\}?"
     r"|(?<![0-9A-Za-z].)(?:(?<=0)[xX]|(?<=&)[hH]|(?<=1)6#)((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=0)[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=[0-9A-Fa-f])[0-9A-Fa-f](?:[0-9A-Fa-f]{2})*[hHuU]?(?![0-9A-Za-z]))",
@@ -88,6 +89,8 @@ _HEX = pattern(
 """A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
 _LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
 _DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
+_SHOWN = pattern(r"(?:(?<!\S)[!-~])?\((\d{3})\)(?![0-9A-Za-z(])")
+"""A byte as a character and in decimal: ``a(097)``."""
 _BETWEEN = pattern(r"[\W_]{0,8}|[\W_]{1,4}(?:CRC|crc)(?:16)?[\W_]{1,4}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
 """What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
@@ -110,7 +113,9 @@ def loose_hex_runs(text: str) -> Iterator[Run]:
 
 
 def decimal_runs(text: str) -> Iterator[Run]:
-    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``; of a signed byte too: ``[1, -54]``."""
+    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``, ``a(097)``; signed bytes too: ``[1, -54]``."""
+    if _SHOWN.search(text):
+        return _runs(text, _SHOWN, lambda word: _one(word, 10))
     return _runs(text, _DECIMAL, lambda word: _one(word, 10)) if _IN_A_ROW.search(text) else iter(())
 
 
@@ -214,11 +219,12 @@ _BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
 _ENDS = rf"""
     (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD]
     | \\015 | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d
-    | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+    | \u21b5 | \$(?:0D|[Rr]) (?![0-9A-Za-z]) | \r
 """
 _LINE_FEEDS = rf"""
     [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
+    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a
+    | \$[LlNn] (?![0-9A-Za-z]) | \n
 """
 _CHARACTER = rf"""
     (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})
@@ -234,7 +240,7 @@ _SPELLED_IN_URL = pattern(
     rf"(?sx) {_CHARACTER} | (?={_LEADING_IN_URL}) %(?P<lead>{_ENCODED}) | (?<=[0-9A-Za-z]) %(?P<inside>2[0ABDEabde])"
 )
 _URL = pattern(f"(?x) {_LEADING_IN_URL}")
-_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
+_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$[0RrLlNn]|[(<\[{][CcLlN0aAdD]")
 """How all of these begin."""
 _CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
 _BASES = {"octal": 8, "decimal": 10}
