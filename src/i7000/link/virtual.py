@@ -240,10 +240,16 @@ class VirtualPort(serial.SerialBase):
 
     def _reconfigure_port(self) -> None:
         """Apply settings; what was written before is sent with the old ones."""
-        uart = Uart(self.baudrate, parity=self.parity, stop_bits=self.stopbits, data_bits=self.bytesize)
         if self.inter_byte_timeout is not None:
             raise InvalidValueError("inter_byte_timeout", self.inter_byte_timeout, "None: use timeout", "")
-        if uart != self._uart:
+        now = self._uart
+        if (now.rate, now.parity, now.stop_bits, now.data_bits) != (
+            self.baudrate,
+            self.parity,
+            self.stopbits,
+            self.bytesize,
+        ):
+            uart = Uart(self.baudrate, parity=self.parity, stop_bits=self.stopbits, data_bits=self.bytesize)
             self.flush()
             self._uart = uart
             self._ear = evolve(self._ear, uart=uart)
