@@ -251,6 +251,14 @@ def test_the_port_gets_the_settings_of_the_line(opened: Open) -> None:
     assert line.line.line == LineSettings(BaudRate.BAUD_9600, CharacterFormat.N82)
 
 
+def test_a_line_can_wait() -> None:
+    port = bus()
+    with Line(port, FAST) as line:
+        line.wait(10.0)
+
+    assert port.now() == 10.0
+
+
 @pytest.mark.parametrize("line", [FAST, LineSettings()])
 def test_a_line_can_be_tuned(line: LineSettings) -> None:
     port = bus()

@@ -113,9 +113,9 @@ class Conversation:
     def tune(self, step: Tune) -> Acts[None]:
         """Change the line settings of the host."""
         if step.line != self.bus.line:
-            yield step
-            self.bus = evolve(self.bus, line=step.line)
+            self.bus = evolve(self.bus, line=step.line)  # first: a cancelled task does not stop the port being changed
             self._show(Tuned(self.clock(), step.line))
+            yield step
 
     def run(self, procedure: Procedure[T], tell: Callable[[object], None] | None) -> Acts[T]:
         """Carry out the steps of a procedure, and return its result.

@@ -49,8 +49,8 @@ class _Running:
         self.silent = False
         """Whether the process has closed its output."""
         self._sending: Queue[bytes] = Queue(_MOST_PIECES)
-        self._threads = [Thread(target=it, name="i7000 exec", daemon=True) for it in (self._hear, self._send)]
-        for thread in self._threads:
+        self.threads = [Thread(target=it, name="i7000 exec", daemon=True) for it in (self._hear, self._send)]
+        for thread in self.threads:
             thread.start()
 
     def _hear(self) -> None:
@@ -83,7 +83,7 @@ class _Running:
         self.send(b"")
         with suppress(subprocess.TimeoutExpired):
             self.process.wait(_ENDING)
-        for thread in self._threads:
+        for thread in self.threads:
             thread.join(_ENDING)
 
 
