@@ -35,6 +35,7 @@ RINGS = {
     "examples": 4,
     "link": 4,
     "simulator": 4,
+    "recording": 4,
     "conformance": 4,
 }
 EXTRAS = {

@@ -39,7 +39,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     fault: Annotated[
         tuple[str, ...],
         Parameter(
-            help="A fault of the line: echo, lumps, drop, flip, noise, late. Example: drop=0.01.",
+            help="A fault of the line, as NAME[=PROBABILITY][@WHERE]; repeat it for each. Example: late=0.25:0.9@01.",
             negative="",
             show_default=False,
         ),
@@ -74,8 +74,12 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       `cold_junction` for `cjc`; other columns are ignored. Each further line has a value for every column, with a
       decimal point, or `open` for an open wire. The seconds rise; a row holds until the next one. A file has at most
       2,000,000 rows and 200 MB.
-    * Faults, with a probability P: `drop=P` and `flip=P` of a byte, `noise=P`, `late=P[:SECONDS]` of a response.
-      Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * Faults of bytes, each with a probability P: `drop=P`, `flip=P` of a bit, `noise=P` before them. Faults of
+      responses: `late=P[:SECONDS]` (0.3 s), `silent=P`, `truncate=P`, `duplicate=P`, `misaddress=P` (the address of
+      another module), `replay=P` (the response to an earlier request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception
+      with CODE, 4). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * After a fault, `@to` limits it to requests, `@from` to responses, and `@01` to the responses of address 01:
+      `drop=0.01@to`, `late=0.25:0.9@01`, `silent=1@02`. A fault with `@` replaces the same fault without it.
     * The file of `--eeprom` is created if it does not exist. If it does, the modules have the settings stored in it,
       and you may leave out `--model`. Only one simulator at a time can use the file.
 
@@ -88,6 +92,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     output that could not be written during the simulation; 130 for Ctrl-C before the simulation starts.
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
+    from i7000.cli.faults import read_faults  # noqa: PLC0415
 
     printer = Printer()
     places = [
@@ -98,7 +103,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     with simulating.held(eeprom):
         simulated = simulating.Simulation(
             simulating.read_modules(model, signal, seed=seed, memory=eeprom),
-            simulating.read_faults(fault),
+            read_faults(fault),
             seed,
             eeprom,
             pty or not places,

@@ -14,7 +14,7 @@ from ipaddress import IPv6Address
 from pathlib import Path
 from typing import IO, Any, cast
 
-from attrs import fields_dict, frozen
+from attrs import frozen
 
 from i7000.cli.module import read_module
 from i7000.cli.outlet import Outlet, missed_words
@@ -22,9 +22,9 @@ from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
 from i7000.cli.traffic import lines
 from i7000.cli.view import View
-from i7000.cli.words import UsageError, near
+from i7000.cli.words import UsageError
 from i7000.device import Eeprom, State
-from i7000.errors import I7000Error, InvalidValueError
+from i7000.errors import I7000Error
 from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
@@ -32,7 +32,7 @@ from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.tcp import LOOPBACK, Connection, listen
 from i7000_cli import FAILED
 
-__all__ = ["Place", "Simulation", "held", "read_faults", "read_modules", "read_place", "run"]
+__all__ = ["Place", "Simulation", "held", "read_modules", "read_place", "run"]
 
 
 @frozen
@@ -136,39 +136,6 @@ def _host(host: str, text: str) -> str:
     raise UsageError(f"{text!r} is not [HOST:]PORT: write an IPv6 address in brackets, such as [::1]:5020")
 
 
-def read_faults(texts: Sequence[str]) -> Faults:
-    """Read ``echo``, ``lumps``, ``drop=0.01``, ``flip=0.01``, ``noise=0.1``, ``late=0.1`` or ``late=0.1:0.25``.
-
-    Errors: `UsageError`.
-
-    >>> read_faults(["echo", "late=0.1:0.25"])
-    Faults(echo=True, lumps=False, drop=0.0, flip=0.0, noise=0.0, late=0.1, late_by=0.25)
-    """
-    found: dict[str, Any] = {}
-    for text in texts:
-        name, equals, value = text.partition("=")
-        kinds = {kind: type(getattr(Faults(), kind)) for kind in fields_dict(Faults) if kind != "late_by"}
-        if name not in kinds:
-            raise UsageError(f"there is no fault {name!r}; faults are {', '.join(kinds)}{near(name, list(kinds))}")
-        if kinds[name] is bool:
-            if equals:
-                raise UsageError(f"--fault {name} has no value")
-            found[name] = True
-            continue
-        probability, colon, late_by = value.partition(":")
-        if colon and name != "late":
-            raise UsageError(f"--fault {text}: only late has a time")
-        try:
-            found[name] = float(probability)
-            if colon:
-                found["late_by"] = float(late_by)
-            Faults(**found)
-        except ValueError as error:
-            reason = error if isinstance(error, InvalidValueError) else f"give a probability: --fault {name}=0.01"
-            raise UsageError(f"--fault {text}: {reason}") from None
-    return Faults(**found)
-
-
 def run(simulated: Simulation, printer: Printer) -> int:
     """Simulate until Ctrl-C or another signal; the ports are printed first.
 
@@ -240,7 +207,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
                 simulator.observe = partial(_show_lines, printer, out)
             elif simulated.view == "live":
                 simulator.report = None
-                view = View(simulator.modules, printer.out, places, simulator.notices)
+                view = View(lambda: [it[:2] for it in simulator.modules()], printer.out, places, simulator.notices)
                 simulator.observe = opened.enter_context(view).show
             await simulator.run()
 
