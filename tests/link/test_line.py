@@ -130,6 +130,9 @@ CASES = {
     "flip": Case(Faults(flip=0.002)),
     "noise": Case(Faults(noise=0.3)),
     "late": Case(Faults(late=0.1, late_by=0.1), Policy(retries=3, turnaround=0.03, grace=0.2)),
+    "silent": Case(Faults(silent=0.2)),
+    "truncate": Case(Faults(truncate=0.2)),
+    "misaddress": Case(Faults().at(0x03, misaddress=0.2)),
     "all": Case(
         Faults(echo=True, lumps=True, drop=0.001, flip=0.001, noise=0.1, late=0.1, late_by=0.3),
         Policy(retries=5, turnaround=0.1, grace=0.5),
