@@ -11,6 +11,37 @@ Laws: a procedure makes a bounded number of requests, so it ends on every line. 
 does: what it did not learn, and why, is in the value that it returns.
 """
 
+from i7000.host.procedures.identified import Candidate, Identified, Unknown
+from i7000.host.procedures.identify import identify
+from i7000.host.procedures.places import EVERY_LINE, SCAN_POLICY, Place, places, scan_time
+from i7000.host.procedures.read import ChannelFault, Report, read
+from i7000.host.procedures.scan import Finding, Heard, Progress, Scanned, scan
 from i7000.host.procedures.step import Ask, Procedure, Result, Step, Tell, Tune, Wait, ask
 
-__all__ = ["Ask", "Procedure", "Result", "Step", "Tell", "Tune", "Wait", "ask"]
+__all__ = [
+    "EVERY_LINE",
+    "SCAN_POLICY",
+    "Ask",
+    "Candidate",
+    "ChannelFault",
+    "Finding",
+    "Heard",
+    "Identified",
+    "Place",
+    "Procedure",
+    "Progress",
+    "Report",
+    "Result",
+    "Scanned",
+    "Step",
+    "Tell",
+    "Tune",
+    "Unknown",
+    "Wait",
+    "ask",
+    "identify",
+    "places",
+    "read",
+    "scan",
+    "scan_time",
+]
