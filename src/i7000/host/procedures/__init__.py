@@ -11,6 +11,35 @@ Laws: a procedure makes a bounded number of requests, so it ends on every line. 
 does: what it did not learn, and why, is in the value that it returns.
 """
 
+from i7000.host.procedures.change import Change, diff, restore, set_one
+from i7000.host.procedures.restoring import Restoration, Restored, Status
+from i7000.host.procedures.settings import NOT_SETTINGS, Hazard, Setting, find_setting, hazard_of, settings_of
+from i7000.host.procedures.snapshot import SCHEMA_VERSION, Snapshot, snapshot
 from i7000.host.procedures.step import Ask, Procedure, Result, Step, Tell, Tune, Wait, ask
 
-__all__ = ["Ask", "Procedure", "Result", "Step", "Tell", "Tune", "Wait", "ask"]
+__all__ = [
+    "NOT_SETTINGS",
+    "SCHEMA_VERSION",
+    "Ask",
+    "Change",
+    "Hazard",
+    "Procedure",
+    "Restoration",
+    "Restored",
+    "Result",
+    "Setting",
+    "Snapshot",
+    "Status",
+    "Step",
+    "Tell",
+    "Tune",
+    "Wait",
+    "ask",
+    "diff",
+    "find_setting",
+    "hazard_of",
+    "restore",
+    "set_one",
+    "settings_of",
+    "snapshot",
+]
