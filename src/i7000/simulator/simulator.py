@@ -72,6 +72,8 @@ class Simulator:
         self.store = store
         self.observe = observe
         self.watch = watch
+        self._changes: list[Change] = []
+        """The changes of modules that are not reported yet."""
         self.report = report
         self.notices: Counter[str] = Counter()
         """The notices, and how often each happened."""
@@ -122,6 +124,7 @@ class Simulator:
             for place in cycled:
                 mode = " in INIT mode" if modules[place].ram.init_mode else ""
                 self._changed(modules[place], (f"power cycle{mode}",))
+        self.report_changes()
 
     def _powered_on(self, eeprom: Eeprom, module: Simulated) -> State:
         return power_on(eeprom, init_switch=module.init_switch, now=self.now)
@@ -134,10 +137,7 @@ class Simulator:
         self._simulated = tuple(simulated)
         self.bus = evolve(self.bus, modules=tuple(modules))
         self._changed(modules[place], (f"INIT switch {'on' if on else 'off'}",))
-
-    def _changed(self, module: State, what: tuple[str, ...]) -> None:
-        if self.watch and what:
-            self.watch(Change(self.now - self._began, module.eeprom.address, module.eeprom.model, what))
+        self.report_changes()
 
     def host(self, name: str, write: Callable[[bytes], None]) -> "Host":
         """Connect a host to the bus, as `Host` describes."""
@@ -148,6 +148,7 @@ class Simulator:
         now = self.now
         moved = [advance(module, own, now) for module, own in zip(self.bus.modules, self.signals, strict=True)]
         self.change(Bus(tuple(moved)))
+        self.report_changes()
 
     def change(self, bus: Bus) -> bool:
         """Replace the bus by `bus`, and store changes of EEPROMs.
@@ -167,8 +168,20 @@ class Simulator:
         self.bus = bus
         if self.watch:
             for before, after in changed:
-                self._changed(after, changes(before.eeprom, after.eeprom))
+                if what := changes(before.eeprom, after.eeprom):
+                    self._changed(after, what, stored=True)
         return True
+
+    def _changed(self, module: State, what: tuple[str, ...], *, stored: bool = False) -> None:
+        at = self.now - self._began
+        self._changes.append(Change(at, module.eeprom.address, module.eeprom.model, what, stored=stored))
+
+    def report_changes(self) -> None:
+        """Report the changes of modules since the last call to the watcher: after the command that caused them."""
+        reported, self._changes = self._changes, []
+        if self.watch:
+            for change in reported:
+                self.watch(change)
 
     def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
         """Report what modules heard, and their answer, to the observer of the line."""
@@ -294,6 +307,7 @@ class Host:
             self._report_noises()
             happened = faults if heard.answer is None else (*faults, *self._answer(heard.frame, heard.answer, heard))
             self.simulator.observed(self.name, heard, happened)
+        self.simulator.report_changes()
         self._stop_waiting()
         if ear.waiting or self._noises:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
