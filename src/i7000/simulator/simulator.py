@@ -16,24 +16,20 @@ from attrs import evolve, frozen
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
 from i7000.errors import I7000Error, Noise
 from i7000.simulator.changes import changes
-from i7000.simulator.faults import Exchange, Faults, Piece
+from i7000.simulator.deliveries import Deliveries
+from i7000.simulator.faults import Exchange, Faults
 from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 
-__all__ = ["MOST_LATE_BYTES", "MOST_LATE_PIECES", "UNREAD", "Host", "Simulated", "Simulator"]
+__all__ = ["UNREAD", "Host", "Simulated", "Simulator"]
 
-MOST_LATE_PIECES = 1 << 10
-"""The maximum number of delayed pieces of responses to one host."""
-MOST_LATE_BYTES = 1 << 16
-"""The maximum number of their bytes; a response beyond either limit is lost completely."""
 UNREAD = "an answer was lost: its host does not read"
 """The text of a notice."""
 _SILENCE = 0.02
 """The silence in seconds that ends a Modbus RTU frame: more than 3.5 characters, as networks do not keep time."""
 _MOST_FAULTS = 16
 """The maximum number of faults kept until there is an event to report them with."""
-_LOST = "an answer was lost: too many are late"
 _TICK = 0.25
 """The interval in seconds at which modules notice the time without traffic."""
 
@@ -229,8 +225,8 @@ class Host:
         self._write = write
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._later: dict[asyncio.TimerHandle, int] = {}
-        """The delayed pieces of responses, and their lengths."""
+        self._deliveries = Deliveries(write, simulator.notice)
+        self._deliveries.delivered = self._check_finished
         self._finished: Callable[[], None] | None = None
         self._faults: tuple[str, ...] = ()
         self._noises: list[tuple[Heard, tuple[str, ...]]] = []
@@ -276,8 +272,7 @@ class Host:
     def close(self) -> None:
         """Disconnect the host: it receives nothing more."""
         self._stop_waiting()
-        for handle in self._later:
-            handle.cancel()
+        self._deliveries.close()
 
     def _silent(self) -> None:
         simulator = self.simulator
@@ -328,18 +323,9 @@ class Host:
         """Send a response, and return its faults."""
         character_time = (self.uart or Uart()).character_time
         exchange = self._exchange(request, answer, heard)
-        faults, delay = self.simulator.faults.answers(exchange.address), heard.delay
+        faults = self.simulator.faults.answers(exchange.address)
         transfer = faults.delivered(answer, character_time, self.simulator.chance, exchange)
-        late = [piece for piece in transfer.pieces if delay + piece.after]
-        if late and not self._has_room(late):
-            self.simulator.notice(_LOST)
-            return *transfer.faults, _LOST
-        for piece in transfer.pieces:
-            if delay + piece.after:
-                self._write_later(delay + piece.after, piece.wire)
-            else:
-                self._write(piece.wire)
-        return transfer.faults
+        return self._deliveries.send(transfer, heard.delay)
 
     def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
         """Return the exchange of an answer, and remember the answer."""
@@ -349,19 +335,6 @@ class Host:
         checksum = heard.profile is not None and heard.profile.checksum
         return Exchange(request, heard.protocol, checksum, self._earlier)
 
-    def _has_room(self, late: Sequence[Piece]) -> bool:
-        size = sum(self._later.values()) + sum(len(piece.wire) for piece in late)
-        return len(self._later) + len(late) <= MOST_LATE_PIECES and size <= MOST_LATE_BYTES
-
-    def _write_later(self, seconds: float, wire: bytes) -> None:
-        def write() -> None:
-            del self._later[handle]
-            self._write(wire)
-            self._check_finished()
-
-        handle = self._loop.call_later(seconds, write)
-        self._later[handle] = len(wire)
-
     def _check_finished(self) -> None:
-        if self._finished and not self._later and not self._silence:
+        if self._finished and not self._deliveries and not self._silence:
             self._finished()
