@@ -149,7 +149,7 @@ def test_a_base_class_of_messages_cannot_be_constructed(base: Any) -> None:
     with pytest.raises(ArgumentError, match=f"{base.__name__} is a base class: construct one of the ") as caught:
         base(*arguments)
 
-    module = dcon if issubclass(base, dcon.Message) else modbus
+    module = dcon if issubclass(base, dcon.Message) else modbus  # one of them for the bases of both
     instead = getattr(module, caught.value.allowed.rpartition(" ")[2])
     assert issubclass(instead, base)
     assert instead.section
@@ -196,12 +196,12 @@ PROFILE = Profile(Model.I_7018)
 READ = dcon.ReadAnalogInput(0x01, 0)
 MODULE = device.power_on(device.factory(Model.I_7018), now=5.0)
 BUS = device.Bus((MODULE,)).step(b"", (device.Signals(),), 5.0)[0]
-OPEN, _ = host.send(host.Bus[Any](), READ, PROFILE, 5.0)
+OPEN = host.send(host.Bus[Any](), READ, PROFILE, 5.0)
 SIGNALS = device.Signals()
 CLOCKS: dict[str, Callable[[float], Any]] = {
-    "host.send": lambda now: host.send(host.wake(OPEN, 5.0)[0], READ, PROFILE, now),
+    "host.send": lambda now: host.send(host.receive(OPEN, b"", 5.0)[0], READ, PROFILE, now),
     "host.receive": lambda now: host.receive(OPEN, b">", now),
-    "host.wake": lambda now: host.wake(OPEN, now),
+    "host.abandon": lambda now: host.abandon(OPEN, now),
     "device.step": lambda now: device.step(MODULE, b"$012\r", SIGNALS, now),
     "device.advance": lambda now: device.advance(MODULE, SIGNALS, now),
     "device.Bus.step": lambda now: BUS.step(b"$012\r", (SIGNALS,), now),
@@ -245,7 +245,7 @@ def test_no_module_gets_power_at_a_time_that_is_not_finite(now: float) -> None:
 
 
 def test_the_clock_of_a_line_goes_on_with_every_call() -> None:
-    bus, _ = host.wake(host.Bus[Any](), 7.0)
+    bus, _ = host.receive(host.Bus[Any](), b"", 7.0)
 
     with pytest.raises(StateError):
         host.send(bus, READ, PROFILE, 6.0)

@@ -363,6 +363,14 @@ def test_fields_are_shown_in_words(run: Run, frames: list[str], words: str) -> N
     assert result.code == 0
 
 
+def test_a_type_that_the_reading_contradicts_is_not_asked_for(run: Run) -> None:
+    result = run("decode", "--model", "I-7017", "$012", "!01080600", "#010", ">+0152.4")
+
+    assert "type            unknown: not the one that line 2 said\n" in result.out
+    assert "--type" not in result.out
+    assert result.code == 1
+
+
 def test_models_are_shown_if_they_are_not_known(run: Run) -> None:
     assert "models  " in run("decode", "$012").out
     assert "models  " not in run("decode", "$012", "--model", "I-7018").out
@@ -534,4 +542,6 @@ def test_colours_around_a_frame_are_no_part_of_it() -> None:
 def test_a_broadcast_that_sets_something_is_noted() -> None:
     (record,) = logged(seal(bytes.fromhex("0005010CFF00")).hex())
 
-    assert record["notes"] == ["a broadcast: no module confirms it, so whether its settings hold is unknown"]
+    assert record["notes"] == [
+        "a broadcast, which no module confirms: taken to hold from here on for all that have the register (E94)"
+    ]

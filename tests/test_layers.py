@@ -33,13 +33,16 @@ RINGS = {
     "spec": 4,
     "__main__": 4,
     "examples": 4,
+    "link": 4,
     "simulator": 4,
+    "recording": 4,
     "conformance": 4,
 }
 EXTRAS = {
     "strategies": {"hypothesis"},
     "cli": {"cyclopts", "rich"},
     "examples": {"serial"},
+    "link": {"serial"},
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {

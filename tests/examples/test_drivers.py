@@ -33,13 +33,13 @@ from i7000 import (
 from i7000.device import OPEN_WIRE, Signal
 from i7000.examples import async_driver, sync_driver
 from i7000.examples.task import Task
-from i7000.host import Answered, AnyCommand, Bus, Declined, Outcome, Policy, Rejected, Sent, TimedOut
+from i7000.host import Answered, Bus, Declined, Outcome, Policy, Query, Rejected, Sent, TimedOut
 from i7000.simulator.faults import Faults
 from i7000.simulator.pseudo_terminal import open_pty
 from i7000.simulator.sources import Fixed, Sources
 from tests.simulator.running import Running, module, running
 
-Request = tuple[AnyCommand, Profile]
+Request = tuple[Query[Any], Profile]
 NO_SUCH_MODULE = dcon.ReadAnalogInputs(0x0F)
 
 
@@ -89,7 +89,7 @@ def requests(count: int) -> Iterator[Request]:
     chance = Random(7000)
     for _ in range(count):
         address, channel = chance.choice(sorted(PROFILES)), chance.randrange(8)
-        command: AnyCommand = modbus.ReadInputRegisters(address, channel, chance.randint(1, 8 - channel))
+        command: Query[Any] = modbus.ReadInputRegisters(address, channel, chance.randint(1, 8 - channel))
         if address in FIELDS:
             command = dcon.ReadAnalogInput(address, channel)
             if chance.random() < 0.2:
@@ -330,7 +330,7 @@ def test_readings_of_another_type_than_the_given_one_are_not_printed_as_values(
         code = sync_driver.main([here.place, "--model", "M-7019R", "--address", "01", "--type", "V_10", "--checksum"])
 
     assert code == 1
-    assert "number in the value of channel 0 at byte 0 of b'+0025.1'" in capsys.readouterr().out
+    assert "number in the value of channel 0 at byte 0 of +0025.1;" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", ["i7000.examples.sync_driver", "i7000.examples.async_driver"])

@@ -206,7 +206,7 @@ def _reading_json(reading: ChannelReading) -> str:
 
 
 def _item_json(item: Item) -> str:
-    number, name, channel, value, unit, text, reading, _ = item
+    number, name, channel, value, unit, text, reading, *_ = item
     if reading is None or reading.status is not Status.OK or channel is None:
         return _json(_item(item))
     return (

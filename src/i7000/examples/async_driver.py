@@ -7,13 +7,25 @@ if __name__ == "__main__":  # before the imports, which take longer than all els
 
 import asyncio
 from collections.abc import Sequence
-from typing import Any, overload
+from contextlib import suppress
 
 import serial
 
-from i7000 import Noise, Profile, dcon, modbus
-from i7000.examples.task import RD, RM, open_port, program, read_task
-from i7000.host import AnyCommand, Bus, Ended, Outcome, Rejected, Sent, Transmit, next_deadline, receive, send
+from i7000 import Noise, Profile
+from i7000.examples.task import R, open_port, program, read_task
+from i7000.host import (
+    Bus,
+    Ended,
+    Outcome,
+    Query,
+    Rejected,
+    Response,
+    Transmit,
+    abandon,
+    next_deadline,
+    receive,
+    send,
+)
 
 __all__ = ["Driver", "main"]
 
@@ -21,55 +33,39 @@ __all__ = ["Driver", "main"]
 class Driver:
     """A port and the state of its line; any number of tasks may send requests."""
 
-    def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
+    def __init__(self, port: serial.Serial, bus: Bus[Response]) -> None:
         self.port, self.bus = port, bus
         self.loop, self.turn = asyncio.get_running_loop(), asyncio.Lock()
-        self.outcome: asyncio.Future[Outcome[Any]] = self.loop.create_future()
-        self.timer: asyncio.TimerHandle | None = None
         self.refused: Rejected | Noise | None = None
-        self.loop.add_reader(port.fileno(), self._called)
 
-    @overload
-    async def ask(self, command: dcon.Command[RD], profile: Profile) -> Outcome[RD]: ...
-    @overload
-    async def ask(self, command: modbus.Request[RM], profile: Profile) -> Outcome[RM]: ...
-    @overload
-    async def ask(self, command: dcon.Broadcast, profile: Profile) -> Sent: ...
-    async def ask(self, command: Any, profile: Profile) -> Any:
-        """Send a command when it is its turn, and return its outcome; a cancelled task does not end the request."""
-        return await asyncio.shield(self._ask(command, profile))
-
-    async def _ask(self, command: AnyCommand, profile: Profile) -> Outcome[Any]:
+    async def ask(self, command: Query[R], profile: Profile) -> Outcome[R]:
+        """Send a command when it is its turn, and return its outcome; a cancelled task ends it without one."""
         async with self.turn:
-            self._advance()
-            self.bus, wire = send(self.bus, command, profile, self.loop.time())
-            self.outcome = self.loop.create_future()
-            self.port.write(wire)
-            self._advance()
-            return await self.outcome
+            bus = send(self.bus, command, profile, self.loop.time())
+            try:
+                while True:
+                    bus, events = receive(bus, await self._read(bus), self.loop.time())
+                    for event in events:
+                        if isinstance(event, Transmit):
+                            self.port.write(event.wire)
+                        elif isinstance(event, Ended):
+                            return event
+                        elif isinstance(event, Rejected | Noise):
+                            self.refused = event
+            finally:
+                self.bus = abandon(bus, self.loop.time())
 
-    def _called(self) -> None:
+    async def _read(self, bus: Bus[Response]) -> bytes:
+        """Read what the port has; wait for it until the deadline."""
+        readable = asyncio.Event()
+        self.loop.add_reader(self.port.fileno(), readable.set)
         try:
-            self._advance()
-        except OSError as error:  # the port is gone
+            with suppress(TimeoutError):
+                async with asyncio.timeout_at(next_deadline(bus)):
+                    await readable.wait()
+        finally:
             self.loop.remove_reader(self.port.fileno())
-            if self.turn.locked() and not self.outcome.done():
-                self.outcome.set_exception(error)
-
-    def _advance(self) -> None:
-        """Process received bytes or the time, and schedule the next call."""
-        self.bus, events = receive(self.bus, self.port.read(self.port.in_waiting), self.loop.time())
-        for event in events:
-            if isinstance(event, Transmit):
-                self.port.write(event.wire)
-            elif isinstance(event, Ended):
-                self.outcome.set_result(event)
-            elif isinstance(event, Rejected | Noise):
-                self.refused = event
-        if self.timer:
-            self.timer.cancel()
-        deadline = next_deadline(self.bus)
-        self.timer = None if deadline is None else self.loop.call_at(deadline, self._called)
+        return self.port.read(self.port.in_waiting)
 
 
 async def _main(arguments: Sequence[str] | None) -> int:

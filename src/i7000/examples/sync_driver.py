@@ -7,13 +7,24 @@ if __name__ == "__main__":  # before the imports, which take longer than all els
 
 from collections.abc import Sequence
 from time import monotonic
-from typing import Any, overload
 
 import serial
 
-from i7000 import Noise, Profile, dcon, modbus
-from i7000.examples.task import RD, RM, open_port, program, read_task
-from i7000.host import Bus, Ended, Outcome, Rejected, Sent, Transmit, next_deadline, receive, send
+from i7000 import Noise, Profile
+from i7000.examples.task import R, open_port, program, read_task
+from i7000.host import (
+    Bus,
+    Ended,
+    Outcome,
+    Query,
+    Rejected,
+    Response,
+    Transmit,
+    abandon,
+    next_deadline,
+    receive,
+    send,
+)
 
 __all__ = ["Driver", "main"]
 
@@ -21,36 +32,31 @@ __all__ = ["Driver", "main"]
 class Driver:
     """A port and the state of its line."""
 
-    def __init__(self, port: serial.Serial, bus: Bus[Any]) -> None:
-        self.port = port
-        self.bus = bus
+    def __init__(self, port: serial.Serial, bus: Bus[Response]) -> None:
+        self.port, self.bus = port, bus
         self.refused: Rejected | Noise | None = None
 
-    @overload
-    def ask(self, command: dcon.Command[RD], profile: Profile) -> Outcome[RD]: ...
-    @overload
-    def ask(self, command: modbus.Request[RM], profile: Profile) -> Outcome[RM]: ...
-    @overload
-    def ask(self, command: dcon.Broadcast, profile: Profile) -> Sent: ...
-    def ask(self, command: Any, profile: Profile) -> Any:
-        """Send a command and return its outcome."""
-        self.bus, _ = receive(self.bus, self.port.read(self.port.in_waiting), monotonic())
-        self.bus, wire = send(self.bus, command, profile, monotonic())
-        self.port.write(wire)
-        outcome = None
-        while (deadline := next_deadline(self.bus)) is not None:
-            self.port.timeout = max(0.0, deadline - monotonic())
-            data = self.port.read()
-            data += self.port.read(self.port.in_waiting)
-            self.bus, events = receive(self.bus, data, monotonic())
-            for event in events:
-                if isinstance(event, Transmit):
-                    self.port.write(event.wire)
-                elif isinstance(event, Ended):
-                    outcome = event
-                elif isinstance(event, Rejected | Noise):
-                    self.refused = event
-        return outcome
+    def ask(self, command: Query[R], profile: Profile) -> Outcome[R]:
+        """Send a command and return its outcome; Ctrl-C and errors of the port end it without one."""
+        bus = send(self.bus, command, profile, monotonic())
+        try:
+            while True:
+                bus, events = receive(bus, self._read(bus), monotonic())
+                for event in events:
+                    if isinstance(event, Transmit):
+                        self.port.write(event.wire)
+                    elif isinstance(event, Ended):
+                        return event
+                    elif isinstance(event, Rejected | Noise):
+                        self.refused = event
+        finally:
+            self.bus = abandon(bus, monotonic())
+
+    def _read(self, bus: Bus[Response]) -> bytes:
+        """Read what the port has; wait for it until the deadline."""
+        deadline = next_deadline(bus)
+        self.port.timeout = deadline and max(0.0, deadline - monotonic())
+        return self.port.read(1) + self.port.read(self.port.in_waiting)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

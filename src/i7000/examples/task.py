@@ -3,20 +3,21 @@
 import sys
 from argparse import ArgumentParser
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import serial
 from attrs import evolve, frozen
 
 from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Reading, TypeCode, dcon, modbus
-from i7000.host import Answered, Bus, Outcome, Rejected
+from i7000.host import Answered, Bus, Outcome, Query, Rejected, Response
 from i7000_cli import program
 
-__all__ = ["RD", "RM", "Task", "open_port", "program", "read_task"]
+__all__ = ["R", "Task", "open_port", "program", "read_task"]
 
-RD = TypeVar("RD", bound=dcon.Response)
-RM = TypeVar("RM", bound=modbus.Response)
+R = TypeVar("R", bound=Response)
 """The response of a command of either protocol."""
+Inputs = dcon.AnalogInputs | modbus.InputRegisters
+"""The response of the command of a task."""
 
 
 @frozen
@@ -24,11 +25,11 @@ class Task:
     """The task of an example driver: read the inputs of a module."""
 
     port: str
-    bus: Bus[Any]
+    bus: Bus[Response]
     profile: Profile
-    command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters
+    command: Query[Inputs]
 
-    def show(self, outcome: Outcome[Any], refused: Rejected | Noise | None) -> int:
+    def show(self, outcome: Outcome[Inputs], refused: Rejected | Noise | None) -> int:
         """Print the outcome, and return the exit code of the program: 0 for a response.
 
         `refused` is the last rejected frame: it often explains a timeout.
@@ -48,7 +49,7 @@ class Task:
             print(channel, reading.value, reading.unit, reading.status.value)  # noqa: T201
         return 0
 
-    def _readings(self, response: Any) -> tuple[Reading, ...]:  # noqa: ANN401 - of either protocol
+    def _readings(self, response: Inputs) -> tuple[Reading, ...]:
         if isinstance(response, modbus.InputRegisters):
             return modbus.readings(response.values, self.profile)
         return dcon.readings(response, self.profile)
@@ -70,11 +71,11 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
     profile = Profile(given.model, checksum=given.checksum)
     if given.type is not None:
         profile = evolve(profile, type_codes=(types[given.type],) * profile.channels)
-    command: dcon.ReadAnalogInputs | modbus.ReadInputRegisters = dcon.ReadAnalogInputs(given.address)
+    command: Query[Inputs] = dcon.ReadAnalogInputs(given.address)
     if given.modbus:
         command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
     line = LineSettings(rates[given.baud])
-    return Task(given.port, Bus[Any](line, echo=given.echo), profile, command)
+    return Task(given.port, Bus[Response](line, echo=given.echo), profile, command)
 
 
 def open_port(task: Task) -> serial.Serial:
