@@ -15,7 +15,7 @@ from i7000.cli.words import UsageError, type_codes
 from i7000.describe import address as address_words
 from i7000.dissect import Knowledge, Known
 
-__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
+__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName", "address_of"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="The protocol of the message: DCON or Modbus RTU.")]
 PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
@@ -161,3 +161,14 @@ def _known(described: Described) -> Known:
 
 UNKNOWN = Module()
 Json = Annotated[bool, Parameter(help="Print JSON, one object a line.", negative="")]
+
+
+def address_of(text: str) -> int:
+    """Read an address of ``--address``.
+
+    Errors: `UsageError`.
+    """
+    number = integer(text)
+    if not 0 <= number <= LAST_ADDRESS:
+        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
+    return number

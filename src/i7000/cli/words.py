@@ -10,6 +10,7 @@ from typing import TypeVar
 from i7000 import MIXED, TypeCode, Unit
 
 __all__ = [
+    "LineError",
     "UsageError",
     "channel_numbers",
     "choice",
@@ -27,6 +28,15 @@ _T = TypeVar("_T")
 
 class UsageError(Exception):
     """Wrong usage of the command line; the message says what to write instead."""
+
+    code = 2
+    """The exit code."""
+
+
+class LineError(UsageError):
+    """A port that cannot be opened or is lost, or no answer; the message names it."""
+
+    code = 3
 
 
 def near(word: str, known: list[str]) -> str:
