@@ -11,6 +11,7 @@ from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
+from i7000.cli.listen import listen
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -28,7 +29,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, simulate):
+for _command in (decode, encode, commands, registers, errata, listen, simulate):
     app.command(_command)
 
 
@@ -50,7 +51,7 @@ def run(arguments: Sequence[str] | None) -> int:
     except (CycloptsError, UsageError, OSError) as error:
         with suppress(OSError, SystemExit):  # The terminal may be gone.
             Printer().error(_words(error))
-        return 2
+        return getattr(error, "code", 2)
     except ModuleNotFoundError as missing:
         extra = "simulator" if missing.name in _OF_THE_SIMULATOR else "cli"
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[{extra}]"')

@@ -16,7 +16,7 @@ from i7000.cli.words import model as model_named
 from i7000.describe import address as address_words
 from i7000.dissect import Knowledge, Known
 
-__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName", "Texts"]
+__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName", "Texts", "address_of"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="The protocol of the message: DCON or Modbus RTU.")]
 PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
@@ -168,3 +168,15 @@ def _known(described: Described) -> Known:
 
 UNKNOWN = Module()
 Json = Annotated[bool, Parameter(help="Print JSON, one object a line.", negative="")]
+
+
+def address_of(text: str) -> int:
+    """Read an address of ``--address``.
+
+    Errors: `UsageError`.
+    """
+    with named(f"--address {text}"):
+        number = integer(text)
+    if not 0 <= number <= LAST_ADDRESS:
+        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
+    return number

@@ -10,6 +10,7 @@ from typing import TypeVar
 from i7000 import MIXED, InvalidValueError, Model, TypeCode, Unit
 
 __all__ = [
+    "LineError",
     "UsageError",
     "channel_numbers",
     "choice",
@@ -29,6 +30,15 @@ _T = TypeVar("_T")
 
 class UsageError(Exception):
     """Wrong usage of the command line; the message says what to write instead."""
+
+    code = 2
+    """The exit code."""
+
+
+class LineError(UsageError):
+    """A port that cannot be opened or is lost, or no answer; the message names it."""
+
+    code = 3
 
 
 def plain(name: str) -> str:
