@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from i7000.cli.listening import Listening, run
 from i7000.cli.message import DCON, MODBUS
-from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, address_of
+from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
 from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError, near
@@ -22,12 +22,8 @@ def listen(  # noqa: PLR0913 - each of them is an option
     target: Target | None = None,
     /,
     *,
-    address: Annotated[
-        tuple[str, ...], Parameter(help="Show only the module at this address. Example: --address 2.", negative="")
-    ] = (),
-    only: Annotated[
-        tuple[str, ...], Parameter(help="Show only messages of this name. Example: --only AnalogInputs.", negative="")
-    ] = (),
+    address: Annotated[Texts, Parameter(help="Show only the module at this address. Example: --address 2.")] = (),
+    only: Annotated[Texts, Parameter(help="Show only messages of this name. Example: --only AnalogInputs.")] = (),
     protocol: Annotated[
         Literal["auto", "dcon", "rtu"], Parameter(help="The protocol on the line; auto recognizes both, even mixed.")
     ] = "auto",
