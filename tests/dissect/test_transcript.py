@@ -138,3 +138,14 @@ def test_a_frame_in_lines_that_begin_alike_is_put_together(lines: list[str]) -> 
     (piece,) = pieces_of(*lines)
 
     assert (piece.kind, piece.wire) == (Kind.MODBUS, RESPONSE)
+
+
+def test_a_damaged_frame_in_decimal_is_found_whole() -> None:
+    (piece,) = pieces_of("<-1-4-16-7-208-7-209-10-13-28-37-180-218")
+
+    assert (piece.kind, piece.wire) == (Kind.DAMAGED, bytes((1, 4, 16, 7, 208, 7, 209, 10, 13, 28, 37, 180, 218)))
+
+
+@pytest.mark.parametrize("line", ["total 10 16 28 37 180 in all", "of 180, 10, 16, 28, 37 in all"])
+def test_numbers_in_decimal_of_which_a_part_could_be_hex_are_no_damaged_frame(line: str) -> None:
+    assert [piece.kind for piece in pieces_of(line)] == [None]
