@@ -19,6 +19,7 @@ from attrs import frozen
 from i7000 import (
     BaudRate,
     Fault,
+    Firmware,
     LineSettings,
     Model,
     Noise,
@@ -34,9 +35,10 @@ from i7000.device import OPEN_WIRE, Signal
 from i7000.examples import async_driver, sync_driver
 from i7000.examples.task import Task
 from i7000.host import Answered, Bus, Declined, Outcome, Policy, Query, Rejected, Sent, TimedOut
-from i7000.simulator.faults import Faults
+from i7000.simulator.faults import Faults, Piece
 from i7000.simulator.pseudo_terminal import open_pty
 from i7000.simulator.sources import Fixed, Sources
+from tests.host.port import Port, run
 from tests.simulator.running import Running, module, running
 
 Request = tuple[Query[Any], Profile]
@@ -262,18 +264,69 @@ def test_what_came_before_a_request_is_not_its_answer(ask: Ask, monkeypatch: pyt
         assert [truth(command)] == ask(here.place, HASTY, [(command, PROFILE)])
 
 
-def test_a_task_that_no_longer_waits_leaves_the_line_to_the_next() -> None:
-    command = dcon.ReadAnalogInput(0x01, 0)
+CALIBRATION = dcon.CalibrateChannelZero(0x01, 0)
+OLD = Profile(Model.I_7019R, firmware=Firmware("B2.6"))
+"""A module that calibrates for 16 seconds."""
 
-    async def give_up_and_ask(path: str) -> Outcome[Any]:
-        with serial.Serial(path) as port:
-            driver = async_driver.Driver(port, HASTY)
-            with pytest.raises(asyncio.TimeoutError):
-                await asyncio.wait_for(driver.ask(NO_SUCH_MODULE, PROFILE), 0.01)
-            return await driver.ask(command, PROFILE)
 
-    with running(open_pty, *MODULES) as here:
-        assert truth(command) == asyncio.run(give_up_and_ask(here.place))
+@pytest.mark.parametrize(
+    ("after", "quiet"),
+    [(0.0, 0.0), (0.001, 0.0), (0.05, 17.0)],
+    ids=["at once", "before it is sent", "after it is sent"],
+)
+def test_a_cancelled_task_gives_the_line_back_and_keeps_the_silence_that_is_owed(after: float, quiet: float) -> None:
+    line: Any = Port(lambda wire, _now: (Piece(b"!01\r", 0.0),) if wire == b"$016\r" else ())
+
+    async def cancel_and_ask() -> float:
+        driver = async_driver.Driver(line, Bus(policy=Policy(retries=0, turnaround=0.2, grace=0.8)))
+        task = asyncio.create_task(driver.ask(CALIBRATION, OLD))
+        await asyncio.sleep(after)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+        await driver.ask(dcon.ReadChannelMask(0x01), OLD)
+        return float(driver.bus.clock)
+
+    ended = run(line, cancel_and_ask)
+
+    assert (line.written[-1], len(line.written)) == (b"$016\r", 2 if quiet else 1)
+    assert quiet <= ended < quiet + 0.3
+
+
+def test_the_tasks_that_wait_behind_a_cancelled_one_are_served() -> None:
+    line: Any = Port(lambda _wire, _now: (Piece(b"!01FF\r", 0.02),))
+    command = dcon.ReadChannelMask(0x01)
+
+    async def ask() -> list[Any]:
+        driver = async_driver.Driver(line, Bus())
+        tasks = [asyncio.create_task(driver.ask(command, OLD)) for _ in range(3)]
+        await asyncio.sleep(0.01)
+        tasks[1].cancel()
+        return await asyncio.gather(*tasks, return_exceptions=True)
+
+    first, second, third = run(line, ask)
+
+    assert first == third == Answered(command, dcon.ChannelMask(0x01, 0xFF))
+    assert isinstance(second, asyncio.CancelledError)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, OSError], ids=["Ctrl-C", "port error"])
+def test_an_interrupted_request_gives_the_line_back(
+    error: type[BaseException], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line: Any = Port(lambda _wire, _now: (Piece(b">+0025.1\r", 0.2),))
+    monkeypatch.setattr(sync_driver, "monotonic", line.now)
+    driver = sync_driver.Driver(line, Bus(policy=Policy(retries=0, turnaround=0.1, grace=0.8)))
+    first, second = dcon.ReadAnalogInput(0x01, 0), dcon.ReadAnalogInput(0x01, 1)
+    line.fails = error
+
+    with pytest.raises(error):
+        driver.ask(first, OLD)
+    sent = line.now()
+    driver.ask(second, OLD)
+
+    assert line.written == [b"#010\r", b"#011\r"]
+    assert line.now() > sent + 0.9
 
 
 def test_a_lost_port_raises_in_the_waiting_task() -> None:
