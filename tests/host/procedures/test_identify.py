@@ -156,7 +156,7 @@ def test_any_settings_are_identified_on_a_line_without_faults(eeprom: Eeprom, ec
     assert set() == silently_unknown(found)
 
 
-MOST_REQUESTS = 2 + 2 + 3 + 12 + 1 + 20 + 5
+MOST_REQUESTS = 8 + 3 + 12 + 1 + 20 + 5
 """The most requests of an identity: contact, name and version, probes, mode, types, and what is left."""
 
 
@@ -286,7 +286,7 @@ def test_the_name_of_another_product_has_no_candidates() -> None:
     assert (found.model, found.profile) == (None, None)
     assert unknown(found)["model"] == "7050D is the name of another product"
     assert found.name == "7050D"
-    assert len(commands(steps)) == 3
+    assert len(commands(steps)) == 4
 
 
 def test_a_type_code_of_no_module_behind_a_name_that_was_set_is_that_of_another_product() -> None:
@@ -428,9 +428,10 @@ def test_nothing_that_answers_is_said_for_each_protocol_and_checksum() -> None:
     assert [it.reason for it in found.unknown] == [
         "no answer to $F82",
         "no answer to $F82",
-        "Modbus has no address 248: 1..247",
     ]
-    assert [step.profile.checksum for step in steps] == [False, True]
+    assert [(step.profile.checksum, step.policy is None) for step in steps] == [
+        (False, False), (True, False), (False, True), (True, True),
+    ]  # fmt: skip
 
 
 def test_a_silent_address_is_asked_by_both_protocols() -> None:
@@ -450,7 +451,7 @@ def test_a_modbus_device_without_function_46_is_none_of_the_models(named: Any) -
     assert (found.profile, found.candidates) == (None, ())
     assert {"name", "model", "types", "modbus_data_format", "data_format", "checksum"} <= set(unknown(found))
     assert "does not answer function 46" in unknown(found)["model"]
-    assert len(steps) <= 3
+    assert len(steps) <= 4
 
 
 def test_a_name_of_no_series_is_that_of_another_product() -> None:
@@ -505,6 +506,8 @@ def test_a_type_that_does_not_answer_by_modbus_is_not_learned() -> None:
     ("arguments", "error"),
     [
         ({"address": 0x100}, EncodeError),
+        ({"address": 0xF8, "protocols": [Protocol.MODBUS_RTU]}, EncodeError),
+        ({"protocols": []}, EncodeError),
         ({"address": "01"}, ArgumentError),
         ({"protocols": 1}, ArgumentError),
         ({"protocols": ["DCON"]}, ArgumentError),
