@@ -254,7 +254,7 @@ CALLS = (
     call("device.Bus.step", b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.hear", device.Ear(), b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.silence", device.Ear(), (_SIGNALS,), 1.0, on=_MODULES),
-    call("device.Ear", _UART, rests=(), told=False),
+    call("device.Ear", _UART, rests=(), dcon_reported=False),
     call("device.Ear.ends_with", b"#010\r", on=device.Ear()),
     call("device.Eeprom", **_fields_of(_EEPROM)),
     call("device.Eeprom.check_types", Profile(Model.M_7019R), on=_EEPROM),

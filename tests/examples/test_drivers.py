@@ -330,7 +330,7 @@ def test_readings_of_another_type_than_the_given_one_are_not_printed_as_values(
         code = sync_driver.main([here.place, "--model", "M-7019R", "--address", "01", "--type", "V_10", "--checksum"])
 
     assert code == 1
-    assert "number in the value of channel 0 at byte 0 of b'+0025.1'" in capsys.readouterr().out
+    assert "number in the value of channel 0 at byte 0 of +0025.1;" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", ["i7000.examples.sync_driver", "i7000.examples.async_driver"])

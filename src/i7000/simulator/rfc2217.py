@@ -13,7 +13,7 @@ from attrs import evolve, frozen
 
 from i7000.device import Uart
 from i7000.errors import InvalidValueError
-from i7000.simulator.simulator import Host
+from i7000.simulator.served import End
 from i7000.simulator.tcp import Connection
 from i7000.simulator.telnet import DO, WILL, Negotiation, Options, Telnet, escaped, subnegotiation
 
@@ -64,7 +64,7 @@ _CONFIRMED = {10: range(0x100), 11: range(0x100), 12: range(1, 4)}
 class Port:
     """The settings that a host makes for its end of the line."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: End) -> None:
         self._host = host
         self._controls = dict(_AT_FIRST)
 
