@@ -1,7 +1,6 @@
 """Reading all channels: of every model in every format by both protocols, and what prevents it."""
 
 from itertools import product
-from random import Random
 from typing import Any
 
 import pytest
@@ -27,9 +26,10 @@ from i7000 import (
     modbus,
 )
 from i7000.device import Eeprom, Signal, Signals, factory, power_on
-from i7000.host import Answered, Bus, Declined, Policy, TimedOut
+from i7000.host import Answered, Declined, Policy, TimedOut
 from i7000.host.procedures import Report, read
 from i7000.simulator.faults import Faults
+from tests.host.procedures.lines import faults
 from tests.host.procedures.runner import Runner
 from tests.host.procedures.scripted import commands, refused, run, unanswered
 
@@ -89,7 +89,7 @@ def name_of(eeprom: Eeprom) -> str:
 def test_every_model_is_read_in_every_format_and_disabled_channels_are_no_numbers(eeprom: Eeprom) -> None:
     runner = Runner.on(eeprom, signals=(signals_of(eeprom),))
 
-    report = runner.run(read(0x01, runner.modules.modules[0].profile, protocol=eeprom.protocol))
+    report = runner.run(read(0x01, runner.modules[0].profile, protocol=eeprom.protocol))
 
     assert is_true(report, eeprom)
     assert (report.faults, report.unknown) == ((), ())
@@ -100,35 +100,21 @@ def test_twenty_single_ended_channels_are_read() -> None:
     eeprom = evolve(factory(Model.M_7017Z), single_ended=True, channel_mask=ENABLED)
     runner = Runner.on(eeprom, signals=(signals_of(eeprom),))
 
-    report = runner.run(read(0x01, runner.modules.modules[0].profile, protocol=Protocol.MODBUS_RTU))
+    report = runner.run(read(0x01, runner.modules[0].profile, protocol=Protocol.MODBUS_RTU))
 
     assert report.readings is not None
     assert (len(report.readings), report.mask) == (20, ENABLED)
     assert is_true(report, eeprom)
 
 
-@st.composite
-def lines(draw: st.DrawFn) -> Faults:
-    """Draw the faults of a line: any of them, from rare to always."""
-    often = st.sampled_from((0.0, 0.0, 0.01, 0.1, 1.0))
-    return Faults(
-        echo=draw(st.booleans()), lumps=draw(st.booleans()), drop=draw(often), flip=draw(often), noise=draw(often),
-        late=draw(often),
-    )  # fmt: skip
-
-
 SEALED = [it for it in MODULES if it.report_settings.checksum or it.protocol is Protocol.MODBUS_RTU]
 
 
-@given(st.sampled_from(SEALED), lines(), st.sampled_from((0.0, 0.1, 1.0)), st.integers(0, 2**32))
-def test_what_is_read_on_a_bad_line_is_so_or_said_to_be_unknown(
-    eeprom: Eeprom, faults: Faults, twice: float, seed: int
-) -> None:
-    bus = Bus[Any](policy=PATIENT, echo=faults.echo)
-    chance = Random(seed)
-    runner = Runner.on(eeprom, signals=(signals_of(eeprom),), bus=bus, faults=faults, twice=twice, chance=chance)
+@given(st.sampled_from(SEALED), faults(), st.integers(0, 2**32))
+def test_what_is_read_on_a_bad_line_is_so_or_said_to_be_unknown(eeprom: Eeprom, bad: Faults, seed: int) -> None:
+    runner = Runner.on(eeprom, signals=(signals_of(eeprom),), policy=PATIENT, faults=bad, seed=seed)
 
-    report = runner.run(read(0x01, runner.modules.modules[0].profile, protocol=eeprom.protocol))
+    report = runner.run(read(0x01, runner.modules[0].profile, protocol=eeprom.protocol))
 
     assert len(runner.asked) <= 2
     if report.readings is None:

@@ -1,6 +1,5 @@
 """The search for modules: where it looks, how long it takes, and what it finds."""
 
-from random import Random
 from typing import Any
 
 import pytest
@@ -24,7 +23,7 @@ from i7000 import (
 )
 from i7000.device import Eeprom, factory
 from i7000.errors import Fault
-from i7000.host import Answered, Bus, Late, Policy, Rejected, TimedOut
+from i7000.host import Answered, Late, Policy, Rejected, TimedOut
 from i7000.host.procedures import (
     EVERY_LINE,
     SCAN_POLICY,
@@ -41,6 +40,7 @@ from i7000.host.procedures import (
     scan_time,
 )
 from i7000.simulator.faults import Faults
+from tests.host.procedures.lines import faults
 from tests.host.procedures.runner import Runner
 from tests.host.procedures.scripted import commands, refused, run
 
@@ -116,7 +116,7 @@ def test_a_place_has_words(place: Place, words: str) -> None:
     st.sets(st.integers(0, 0xFF), min_size=1, max_size=5),
     st.sets(st.sampled_from(Protocol), min_size=1),
     st.sets(st.booleans(), min_size=1),
-    st.builds(Policy, retries=st.integers(0, 1), turnaround=st.floats(0.01, 1), grace=st.floats(0, 1)),
+    st.builds(Policy, retries=st.integers(0, 1), turnaround=st.floats(0.05, 1), grace=st.floats(0, 1)),
 )
 def test_the_time_of_a_scan_is_the_time_that_it_takes_on_a_silent_line(
     lines: list[LineSettings],
@@ -133,7 +133,7 @@ def test_the_time_of_a_scan_is_the_time_that_it_takes_on_a_silent_line(
     progress = [told for told in runner.told if isinstance(told, Progress)]
     assert scanned == Scanned((), len(places(*arguments)))
     last_silence = policy.grace if scanned.total else 0.0
-    assert scan_time(*arguments, policy=policy) == pytest.approx(runner.now + last_silence, abs=0.01)
+    assert scan_time(*arguments, policy=policy) == pytest.approx(runner.now + last_silence, abs=0.001)
     assert [told.done for told in progress] == list(range(scanned.total))
     assert {told.total for told in progress} == ({scanned.total} if progress else set())
     assert sorted((told.seconds_left for told in progress), reverse=True) == [told.seconds_left for told in progress]
@@ -179,8 +179,8 @@ def test_every_module_is_found_at_its_place_and_left_as_it_was(
     eeproms: list[Eeprom],
     echo: bool,  # noqa: FBT001
 ) -> None:
-    runner = Runner.on(*eeproms, bus=Bus[Any](echo=echo), faults=Faults(echo=echo))
-    before = runner.modules.modules
+    runner = Runner.on(*eeproms, faults=Faults(echo=echo))
+    before = runner.modules
 
     scanned = runner.run(scan(LINES, range(4)))
 
@@ -192,32 +192,15 @@ def test_every_module_is_found_at_its_place_and_left_as_it_was(
             eeprom.name if eeprom.protocol is Protocol.DCON else eeprom.model.modbus_name.hex().upper()
         )
     assert [told for told in runner.told if isinstance(told, Finding)] == list(scanned.findings)
-    assert [(it.eeprom, it.ram) for it in before] == [(it.eeprom, it.ram) for it in runner.modules.modules]
+    assert [(it.eeprom, it.ram) for it in before] == [(it.eeprom, it.ram) for it in runner.modules]
     assert {type(step.command) for step in runner.asked} <= {
         dcon.ReadModuleName, modbus.ReadInputRegisters, modbus.ReadModuleName,
     }  # fmt: skip
 
 
-@st.composite
-def faults(draw: st.DrawFn) -> Faults:
-    """Draw the faults of a line: any of them, from rare to always."""
-    often = st.sampled_from((0.0, 0.0, 0.01, 0.1, 1.0))
-    return Faults(
-        echo=draw(st.booleans()), lumps=draw(st.booleans()), drop=draw(often), flip=draw(often), noise=draw(often),
-        late=draw(often), late_by=draw(st.sampled_from((0.05, 0.12, 0.3))),
-    )  # fmt: skip
-
-
-@given(modules(), faults(), st.sampled_from((0.0, 0.1, 1.0)), st.booleans(), st.integers(0, 2**32))
-def test_what_is_found_on_a_bad_line_is_there(
-    eeproms: list[Eeprom],
-    bad: Faults,
-    twice: float,
-    echo: bool,  # noqa: FBT001
-    seed: int,
-) -> None:
-    chance = Random(seed)
-    runner = Runner.on(*eeproms, bus=Bus[Any](echo=echo), faults=bad, twice=twice, chance=chance)
+@given(modules(), faults(), st.integers(0, 2**32))
+def test_what_is_found_on_a_bad_line_is_there(eeproms: list[Eeprom], bad: Faults, seed: int) -> None:
+    runner = Runner.on(*eeproms, faults=bad, seed=seed)
     policy = evolve(SCAN_POLICY, grace=0.4)
 
     scanned = runner.run(scan(LINES, range(4), checksums=[True], policy=policy))
