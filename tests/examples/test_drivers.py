@@ -11,7 +11,7 @@ from i7000.examples import async_driver, sync_driver
 from i7000.examples.task import Task
 from i7000.host import Late, Rejected, TimedOut
 from i7000.host.procedures import Result
-from i7000.link import VirtualPort, target
+from i7000.link import VirtualPort
 from i7000.simulator.faults import Faults
 from i7000.simulator.pseudo_terminal import open_pty
 from tests.link.scene import FAST, MODULES, PROFILE, VOLTS
@@ -117,7 +117,7 @@ def test_a_port_that_disappears_ends_a_program_with_the_reason(
         def read(self, size: int = 1) -> bytes:
             raise OSError(5, f"no {size} bytes")
 
-    monkeypatch.setattr(target, "VirtualPort", Gone)
+    monkeypatch.setattr("i7000.link.virtual.VirtualPort", Gone)
     with pytest.raises(SystemExit) as ended:
         main(["sim:M-7019R", "--model", "M-7019R"])
 

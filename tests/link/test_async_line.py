@@ -11,7 +11,7 @@ import pytest
 from i7000 import BaudRate, LineSettings, Profile, dcon
 from i7000.host import Answered, Late, Outcome, TimedOut
 from i7000.host.procedures import Procedure, Tune, ask
-from i7000.link import AsyncLine, Happened, LinkError, Observed, VirtualPort, async_line
+from i7000.link import AsyncLine, Happened, LinkError, Observed, Tuned, VirtualPort, async_line
 from i7000.link.worker import Worker
 from i7000.message import Query, Response
 from tests.link.scene import FAST, HASTY, MODULES, NO_SUCH_MODULE, PROFILE, requests, truth
@@ -151,10 +151,12 @@ def test_a_cancelled_procedure_leaves_the_line_settings_as_they_were() -> None:
         yield from ask(NO_SUCH_MODULE, PROFILE)
 
     async def cancelled(port: HeldUp) -> Outcome[Response]:
-        async with opened(port) as line:
+        def observe(observed: Observed) -> None:
+            if observed == Tuned(0.0, LineSettings(BaudRate.BAUD_1200)):
+                task.cancel()
+
+        async with opened(port, observe) as line:
             task = asyncio.create_task(line.run(tuned_away()))
-            await asyncio.to_thread(until, lambda: port.baudrate == 1200)
-            task.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await task
             return await line.ask(READ, PROFILE)

@@ -143,14 +143,14 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_whatever_the_line_does_nothing_wrong_is_read(opened: Open, case: Case) -> None:
-    asked = list(requests(60))
+    asked = list(requests(40))
 
     outcomes = opened(bus(case.faults), FAST, case.policy, echo=case.echo).ask(*asked)
 
     answered = [outcome for outcome in outcomes if isinstance(outcome, Answered)]
     assert [command for command, _ in asked] == [outcome.command for outcome in outcomes]
     assert [truth(outcome.command) for outcome in answered] == answered
-    assert len(answered) >= 0.97 * len(asked)
+    assert len(answered) >= 0.95 * len(asked)
 
 
 def test_each_request_has_the_outcome_that_is_its_own(opened: Open) -> None:

@@ -15,7 +15,7 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings, Unit
 from i7000.device import Signals
-from i7000.link import LinkError, ProcessPort, VirtualPort, open_target, target
+from i7000.link import LinkError, ProcessPort, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulator.running import I_7018, RFC_2217, SAID, TRANSPORTS, running
 
@@ -53,7 +53,9 @@ def test_a_device_is_opened_with_the_settings_of_the_line_for_this_program_alone
 
 def test_a_device_that_does_not_exist_is_an_error_with_those_that_do(monkeypatch: pytest.MonkeyPatch) -> None:
     def listed(count: int) -> None:
-        monkeypatch.setattr(target, "comports", lambda: [ListPortInfo(f"COM{number}") for number in range(count)])
+        monkeypatch.setattr(
+            "serial.tools.list_ports.comports", lambda: [ListPortInfo(f"COM{number}") for number in range(count)]
+        )
 
     listed(0)
     assert refusal("/dev/no") == (
@@ -64,6 +66,11 @@ def test_a_device_that_does_not_exist_is_an_error_with_those_that_do(monkeypatch
     assert refusal("/dev/no").endswith("; the serial ports here are COM0, COM1")
     listed(9)
     assert refusal("/dev/no").endswith("COM6, COM7, ...")
+
+
+def test_an_undefined_baud_rate_is_an_error() -> None:
+    with pytest.raises(InvalidValueError, match=r"baud_rate cannot be '3F': 03\.\.0A"):
+        open_target("/dev/ttyUSB0", LineSettings(0x3F))
 
 
 def test_a_file_that_is_no_serial_port_is_an_error() -> None:
