@@ -10,7 +10,7 @@ import pytest
 from attrs import frozen
 
 from i7000 import BaudRate, CharacterFormat, EncodeError, LineSettings, dcon, modbus
-from i7000.errors import I7000Error
+from i7000.errors import I7000Error, InvalidValueError, StateError
 from i7000.host import Answered, Declined, Late, Outcome, Policy, Sent, TimedOut, Transmit
 from i7000.host.procedures import Ask, Procedure, Result, Tell, Tune, Wait, ask
 from i7000.link import (
@@ -257,9 +257,15 @@ def test_the_port_gets_the_settings_of_the_line(opened: Open) -> None:
 def test_a_line_can_wait() -> None:
     port = bus()
     with Line(port, FAST) as line:
-        line.wait(10.0)
+        line.wait(1e5)
 
-    assert port.now() == 10.0
+    assert port.now() == 1e5
+
+
+@pytest.mark.parametrize("seconds", [-1.0, float("inf")])
+def test_a_line_does_not_wait_for_an_impossible_time(seconds: float) -> None:
+    with Line(bus(), FAST) as line, pytest.raises(InvalidValueError, match="seconds"):
+        line.wait(seconds)
 
 
 @pytest.mark.parametrize("line", [FAST, LineSettings()])
@@ -495,6 +501,35 @@ def test_settings_that_a_port_cannot_have_are_an_error(opened: Open) -> None:
 
     with pytest.raises(LinkError, match="Slow: the port cannot be set to 1200 N81: too slow"):
         opened(Slow(MODULES), LineSettings(BaudRate.BAUD_1200))
+
+
+@pytest.mark.parametrize("kind", [Line, AsyncLine])
+def test_a_port_is_closed_again_if_its_line_cannot_be_made(
+    kind: type[Line | AsyncLine], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    closed: list[VirtualPort] = []
+
+    def close(port: VirtualPort) -> None:
+        closed.append(port)
+
+    async def opened(policy: Any) -> None:
+        line = kind.open("sim:I-7018", policy=policy)
+        if not isinstance(line, Line):
+            await line
+
+    monkeypatch.setattr(VirtualPort, "close", close)
+    with pytest.raises(InvalidValueError, match="policy"):
+        asyncio.run(opened("patient"))
+
+    assert len(closed) == 1
+
+
+def test_a_call_during_another_is_refused_and_disturbs_nothing() -> None:
+    with Line(bus(), FAST) as line:
+        with pytest.raises(StateError, match="the line is in use"):
+            line.run(steps(Tell(1)), lambda _: line.ask(READ, PROFILE))
+
+        assert line.ask(READ, PROFILE) == truth(READ)
 
 
 def test_a_wrong_use_of_a_virtual_port_is_its_own_error(opened: Open) -> None:

@@ -14,6 +14,9 @@ from i7000.settings import BaudRate, LineSettings
 
 __all__ = ["Port", "clock_of", "close", "named", "read", "settings_of", "tune", "write"]
 
+_LONGEST = 3600.0
+"""The longest time in seconds of one read: systems do not take any time."""
+
 
 class Port(Protocol):
     """The methods and attributes of `serial.Serial` that a line uses."""
@@ -63,10 +66,11 @@ def settings_of(line: LineSettings) -> dict[str, Any]:
 
 
 def read(port: Port, seconds: float) -> bytes:
-    """Return all bytes that a port has, as soon as there are any; none after so many seconds.
+    """Return all bytes that a port has, as soon as there are any; none after so many seconds, or after an hour.
 
     Errors: `LinkError`.
     """
+    seconds = min(seconds, _LONGEST)
     try:
         if port.timeout != seconds:
             port.timeout = seconds
