@@ -15,8 +15,8 @@ import pytest
 from i7000.cli.outlet import Outlet
 from i7000.cli.simulation import read_place
 from i7000.cli.words import UsageError
+from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.recordings import MOST_BYTES, MOST_ROWS
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.tcp import MOST_CONNECTIONS
 from tests.simulation import INPUTS, KELVIN, SAID, free_port, simulated, talk
 from tests.terminal import Run

@@ -108,3 +108,33 @@ def test_parts_longer_than_a_frame_are_given_up_from_the_first_on() -> None:
     found = pieces_of(begun, *["00 " * 100] * 3, "RX 01 04 00 00", "00 01 31 CA")
 
     assert (found[-1].number, found[-1].last, found[-1].wire) == (5, 6, REQUEST)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["level=01", "04 02 0B 61 7F E8"],
+        ["level=01", "RX 04 02 0B 61 7F E8"],
+        ["retry 01 04", "RX 02 0B 61 7F E8"],
+        ["01 04 02 0B 61 7F", "temperature E8"],
+        ["step 3 of 01", "12:00:01 04 02 0B 61 7F E8"],
+    ],
+)
+def test_a_number_in_a_sentence_is_no_part_of_the_frame_in_the_next_line(lines: list[str]) -> None:
+    assert Kind.MODBUS not in [piece.kind for piece in pieces_of(*lines)]
+    assert all(piece.number == piece.last for piece in pieces_of(*lines))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["uart-1: 01", "uart-1: 04", "uart-1: 02 0B 61 7F E8"],
+        ["12:00:01 RX: 01", "12:00:01 RX: 04 02 0B 61 7F E8"],
+        ["Data: 01 04 02", "      0B 61 7F E8"],
+        ["RX: 01", "    04 02 0B 61 7F E8"],
+    ],
+)
+def test_a_frame_in_lines_that_begin_alike_is_put_together(lines: list[str]) -> None:
+    (piece,) = pieces_of(*lines)
+
+    assert (piece.kind, piece.wire) == (Kind.MODBUS, RESPONSE)

@@ -12,11 +12,12 @@ from attrs import evolve
 
 from i7000 import Model, Noise, Profile, Protocol, ReportSettings, Unit, dcon, modbus
 from i7000.device import Eeprom, Signal
+from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.faults import Faults, Way
 from i7000.simulator.memory import MemoryFileError
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.pseudo_terminal import open_pty
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, UNREAD, Host, Simulated, Simulator
+from i7000.simulator.simulator import UNREAD, Host, Simulated, Simulator
 from i7000.simulator.sources import Fixed, Sources
 from i7000.simulator.tcp import listen
 from tests.simulator.running import I_7018, SAID, TRANSPORTS, ask, connected, module, port, running
@@ -399,7 +400,7 @@ def test_power_is_cycled_at_one_place_only() -> None:
     assert [(it.address, it.what) for it in changed] == [(2, ("power cycle",))]
 
 
-def test_changes_of_settings_are_reported_after_they_are_stored() -> None:
+def test_changes_of_settings_are_reported_after_they_are_stored_and_answered() -> None:
     told: list[object] = []
 
     async def rename() -> None:
@@ -408,7 +409,7 @@ def test_changes_of_settings_are_reported_after_they_are_stored() -> None:
 
     asyncio.run(rename())
 
-    stored, change, answer = told
+    stored, answer, change = told
     assert isinstance(stored, list)
     assert isinstance(change, Change)
     assert (change.address, change.model, change.what) == (1, Model.I_7018, ("name 7018 -> ABC",))

@@ -6,28 +6,33 @@ Laws: what only some options need is imported when one of them is used.
 import asyncio
 import logging
 import signal
+import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from functools import partial
+from importlib.util import find_spec
 from ipaddress import IPv6Address
 from pathlib import Path
 from typing import IO, Any, cast
 
 from attrs import frozen
 
+from i7000.cli.control import Control, follow_input, listening
+from i7000.cli.keys import Prompt, pressed
 from i7000.cli.module import read_module
+from i7000.cli.operating import module_commands
 from i7000.cli.outlet import Outlet, missed_words
 from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
-from i7000.cli.traffic import lines
+from i7000.cli.traffic import change_line, lines
 from i7000.cli.view import View
 from i7000.cli.words import UsageError
 from i7000.device import Eeprom, State
 from i7000.errors import I7000Error
 from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
-from i7000.simulator.observed import Observed
+from i7000.simulator.observed import Change, Observed
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.tcp import LOOPBACK, Connection, listen
 from i7000_cli import FAILED
@@ -56,6 +61,8 @@ class Simulation:
     pty: bool
     places: tuple[Place, ...]
     view: str
+    control: str | None
+    """Where commands come from: ``-`` is standard input, else the path of a socket; None is nowhere."""
 
 
 @contextmanager
@@ -203,13 +210,42 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
             for place in places:
                 printer.out.out(place, highlight=False)
             printer.out.file.flush()
+            control = Control(simulator, module_commands(simulator, simulated.seed))
             if simulated.view == "lines":
                 simulator.observe = partial(_show_lines, printer, out)
+                simulator.watch = partial(_show_change, printer, out)
             elif simulated.view == "live":
-                simulator.report = None
-                view = View(lambda: [it[:2] for it in simulator.modules()], printer.out, places, simulator.notices)
-                simulator.observe = opened.enter_context(view).show
+                _show_live(simulator, control, printer, places, opened)
+            if simulated.control == "-":
+                follow_input(control, partial(_show_answer, printer))
+            elif simulated.control is not None:
+                await opened.enter_async_context(listening(control, Path(simulated.control)))
             await simulator.run()
+
+
+def _show_live(
+    simulator: Simulator, control: Control, printer: Printer, places: Sequence[str], opened: AsyncExitStack
+) -> None:
+    """Show the live view until `opened` is closed, with keys if there is a terminal to press them on."""
+    simulator.report = None
+    prompt = Prompt(control) if _has_keys() else None
+    line = None if prompt is None else prompt.line
+    view = View(simulator.modules, printer.out, places, simulator.notices, line)
+    opened.enter_context(view)
+    simulator.observe, simulator.watch = view.show, view.change
+    if prompt is not None:
+        prompt.changed = lambda: simulator.loop.run_in_executor(None, view.refresh)
+        opened.enter_context(pressed(prompt))
+
+
+def _has_keys() -> bool:
+    """Return whether standard input is a terminal whose keys can be read one by one: not on Windows."""
+    return sys.stdin is not None and sys.stdin.isatty() and find_spec("termios") is not None
+
+
+def _show_answer(printer: Printer, answer: str) -> None:
+    printer.out.out(answer, highlight=False)
+    printer.out.file.flush()
 
 
 @contextmanager
@@ -257,6 +293,11 @@ async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitSt
         listening = listen(simulator, place.host, place.port, connection=connection)
         found.append(f"{place.scheme}://{await opened.enter_async_context(listening)}")
     return found
+
+
+def _show_change(printer: Printer, out: Outlet, change: Change) -> None:
+    if not out.skip(1):
+        printer.show([change_line(change)])
 
 
 def _show_lines(printer: Printer, out: Outlet, observed: Observed) -> None:

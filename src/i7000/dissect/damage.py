@@ -2,16 +2,12 @@
 
 import re
 
-from i7000.dissect.spelling import hex_runs, wire_of, without_numbers
+from i7000.dissect.spelling import DIRECTIONS, hex_runs, wire_of, without_numbers
 from i7000.settings import Protocol
 
-__all__ = ["in_place_of_a_frame"]
+__all__ = ["in_place_of_a_frame", "is_direction"]
 
-_DIRECTION = re.compile(
-    r"[\Wz_]*(?:(?:tx|rx|sent|send|recv|received?|writ(?:e|ten)|read|re(?:quest|sponse|ply)|query|answer|command|out|in"
-    r"|host|master|slave)[\Wz_]*){0,2}",
-    re.IGNORECASE,
-)
+_DIRECTION = re.compile(rf"[\Wz_]*(?:(?:{DIRECTIONS})[\Wz_]*){{0,2}}", re.IGNORECASE)
 """What may stand beside a frame: a time, which is crossed out, and words for its direction."""
 _LEADING = re.compile(r"[%#$~@!?]|(?<![-=<>])>(?!\s*[%#$~@!?>])")
 """A leading character, and no arrow."""
@@ -20,6 +16,11 @@ _HEADING = bytes(range(256))
 _FEWEST = 2
 _FEWEST_IN_A_WORD = 5
 """The fewest bytes that are not a plain number, if the protocol is unknown."""
+
+
+def is_direction(beside: str) -> bool:
+    """Return whether what stands beside a frame is nothing but a time, which is crossed out, and a direction."""
+    return bool(_DIRECTION.fullmatch(beside))
 
 
 def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
@@ -40,11 +41,11 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
             wire = wire_of(run)
             heading = wire == _HEADING[: len(wire)]
-            if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
+            if (protocol is not None or (many and not heading)) and is_direction(beside):
                 return wire
     if protocol is Protocol.DCON:
         first = _LEADING.search(crossed)
-        if first and _DIRECTION.fullmatch(crossed[: first.start()]):
+        if first and is_direction(crossed[: first.start()]):
             body = text[first.start() :].rstrip("\r\n")
             ended = body[0] == ">" or text.endswith("\r")  # A blank before the carriage return was on the wire.
             return (body if ended else body.rstrip()).encode("utf-8", "surrogateescape") + b"\r"

@@ -42,9 +42,11 @@ class Line(NamedTuple):
     part: bytes
     """Where no frame is good, the bytes that the line spells in hex: a part of a frame that is cut over several lines,
     perhaps."""
+    start: int
+    """Where they begin."""
 
 
-_NOTHING = Line((), b"")
+_NOTHING = Line((), b"", 0)
 
 
 def find(text: str) -> tuple[Found, ...]:
@@ -89,7 +91,7 @@ def read_line(text: str) -> Line:
     runs = [_without_column(text, run) for run in hex_runs(crossed)]
     wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
-    columns = [wire for wire in wires if len(wire) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
+    columns = [run for run in runs if len(run) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
     taken = bytearray(len(text))
     for found in _in_strings(text):
         if _repeats(found, text, columns):
@@ -104,16 +106,17 @@ def read_line(text: str) -> Line:
         for numbers in (loose_hex_runs, decimal_runs):
             fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
             good += [found for run in fresh for found in good_in_run(text, run)]
-    part = b"" if good else max(wires, key=len, default=b"")
+    longest = [] if good else max(runs, key=len, default=[])
+    part, start = wire_of(longest), longest[0].start if longest else 0
     if not good and not damaged:
-        return Line((), part)
+        return Line((), part, start)
     taken = bytearray(len(text))
     chosen = []
     for found in (*_longest_first(good), *_longest_first(damaged)):
         if _is_free(taken, found):
             _take(taken, found)
             chosen.append(found)
-    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part)
+    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part, start)
 
 
 _LETTER = pattern("[A-Fa-f]")
@@ -168,7 +171,7 @@ def _in_strings(text: str) -> Iterator[Found]:
     """Find frames in strings with escapes, and those that are written as text."""
     for run, usual in literal_runs(text):
         if not _is_text(wire_of(run)):
-            yield from in_run(text, run) if usual else good_in_run(text, run)
+            yield from in_run(text, run, is_string=True) if usual else good_in_run(text, run)
     yield from in_text(text)
 
 
@@ -180,10 +183,17 @@ def _is_text(wire: bytes) -> bool:
     return not wire.translate(None, _PRINTABLE)
 
 
-def _repeats(found: Found, text: str, columns: list[bytes]) -> bool:
-    """Return whether a hex run of the line has the same bytes, or those that are shown as the same text."""
+def _repeats(found: Found, text: str, columns: list[Run]) -> bool:
+    """Return whether hex elsewhere in the line has the same bytes, or those that are shown as the same text."""
     written = text[found.start : found.end]
-    return any(found.wire in column or written in _shown(column) for column in columns)
+    for run in columns:
+        others = run
+        if run[0].start < found.end and found.start < run[-1].end:
+            others = [byte for byte in run if byte.end <= found.start or found.end <= byte.start]
+        column = wire_of(others)
+        if found.wire in column or written in _shown(column):
+            return True
+    return False
 
 
 def _shown(wire: bytes) -> str:

@@ -78,15 +78,15 @@ def good_in_run(text: str, run: Run) -> Iterator[Found]:
                 yield _found(kind, run, start, end)
 
 
-def in_run(text: str, run: Run) -> Iterator[Found]:
-    """Find the frames in a run, and what stands beside them in the same spelling."""
+def in_run(text: str, run: Run, *, is_string: bool = False) -> Iterator[Found]:
+    """Find the frames in a run, and what stands beside them in the same spelling; a string has one spelling only."""
     if len(run) < SHORTEST_RUN:
         return
     frames = frames_of(wire_of(run))
     if sum(end - start for _, start, end in frames) == len(run):
         yield from (_found(*frame[:1], run, *frame[1:]) for frame in frames)
         return
-    styles = _styles(text, run)
+    styles = [_Style("", 1, "")] * (len(run) - 1) if is_string else _styles(text, run)
     at = 0
     beside: set[_Style] = set()
     size = 0
@@ -180,7 +180,7 @@ def _damaged(run: Run, styles: list[_Style], start: int, end: int) -> Iterator[F
 
 def _grouped(style: _Style) -> _Style:
     """Words of several bytes with blanks between are one style: ``0104 0000``."""
-    return style._replace(between=style.between.strip())
+    return style._replace(between=style.between.strip(" "))
 
 
 @cache

@@ -43,3 +43,5 @@ class Change:
     model: Model
     what: tuple[str, ...]
     """The changes in words."""
+    stored: bool = False
+    """Whether the EEPROM was written."""

@@ -16,24 +16,20 @@ from attrs import evolve, frozen
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
 from i7000.errors import I7000Error, Noise
 from i7000.simulator.changes import changes
-from i7000.simulator.faults import Exchange, Faults, Piece
+from i7000.simulator.deliveries import Deliveries
+from i7000.simulator.faults import Exchange, Faults
 from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 
-__all__ = ["MOST_LATE_BYTES", "MOST_LATE_PIECES", "UNREAD", "Host", "Simulated", "Simulator"]
+__all__ = ["UNREAD", "Host", "Simulated", "Simulator"]
 
-MOST_LATE_PIECES = 1 << 10
-"""The maximum number of delayed pieces of responses to one host."""
-MOST_LATE_BYTES = 1 << 16
-"""The maximum number of their bytes; a response beyond either limit is lost completely."""
 UNREAD = "an answer was lost: its host does not read"
 """The text of a notice."""
 _SILENCE = 0.02
 """The silence in seconds that ends a Modbus RTU frame: more than 3.5 characters, as networks do not keep time."""
 _MOST_FAULTS = 16
 """The maximum number of faults kept until there is an event to report them with."""
-_LOST = "an answer was lost: too many are late"
 _TICK = 0.25
 """The interval in seconds at which modules notice the time without traffic."""
 
@@ -72,6 +68,8 @@ class Simulator:
         self.store = store
         self.observe = observe
         self.watch = watch
+        self._changes: list[Change] = []
+        """The changes of modules that are not reported yet."""
         self.report = report
         self.notices: Counter[str] = Counter()
         """The notices, and how often each happened."""
@@ -122,6 +120,7 @@ class Simulator:
             for place in cycled:
                 mode = " in INIT mode" if modules[place].ram.init_mode else ""
                 self._changed(modules[place], (f"power cycle{mode}",))
+        self.report_changes()
 
     def _powered_on(self, eeprom: Eeprom, module: Simulated) -> State:
         return power_on(eeprom, init_switch=module.init_switch, now=self.now)
@@ -134,10 +133,7 @@ class Simulator:
         self._simulated = tuple(simulated)
         self.bus = evolve(self.bus, modules=tuple(modules))
         self._changed(modules[place], (f"INIT switch {'on' if on else 'off'}",))
-
-    def _changed(self, module: State, what: tuple[str, ...]) -> None:
-        if self.watch and what:
-            self.watch(Change(self.now - self._began, module.eeprom.address, module.eeprom.model, what))
+        self.report_changes()
 
     def host(self, name: str, write: Callable[[bytes], None]) -> "Host":
         """Connect a host to the bus, as `Host` describes."""
@@ -148,6 +144,7 @@ class Simulator:
         now = self.now
         moved = [advance(module, own, now) for module, own in zip(self.bus.modules, self.signals, strict=True)]
         self.change(Bus(tuple(moved)))
+        self.report_changes()
 
     def change(self, bus: Bus) -> bool:
         """Replace the bus by `bus`, and store changes of EEPROMs.
@@ -167,8 +164,20 @@ class Simulator:
         self.bus = bus
         if self.watch:
             for before, after in changed:
-                self._changed(after, changes(before.eeprom, after.eeprom))
+                if what := changes(before.eeprom, after.eeprom):
+                    self._changed(after, what, stored=True)
         return True
+
+    def _changed(self, module: State, what: tuple[str, ...], *, stored: bool = False) -> None:
+        at = self.now - self._began
+        self._changes.append(Change(at, module.eeprom.address, module.eeprom.model, what, stored=stored))
+
+    def report_changes(self) -> None:
+        """Report the changes of modules since the last call to the watcher: after the command that caused them."""
+        reported, self._changes = self._changes, []
+        if self.watch:
+            for change in reported:
+                self.watch(change)
 
     def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
         """Report what modules heard, and their answer, to the observer of the line."""
@@ -216,8 +225,8 @@ class Host:
         self._write = write
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._later: dict[asyncio.TimerHandle, int] = {}
-        """The delayed pieces of responses, and their lengths."""
+        self._deliveries = Deliveries(write, simulator.notice)
+        self._deliveries.delivered = self._check_finished
         self._finished: Callable[[], None] | None = None
         self._faults: tuple[str, ...] = ()
         self._noises: list[tuple[Heard, tuple[str, ...]]] = []
@@ -263,8 +272,7 @@ class Host:
     def close(self) -> None:
         """Disconnect the host: it receives nothing more."""
         self._stop_waiting()
-        for handle in self._later:
-            handle.cancel()
+        self._deliveries.close()
 
     def _silent(self) -> None:
         simulator = self.simulator
@@ -294,6 +302,7 @@ class Host:
             self._report_noises()
             happened = faults if heard.answer is None else (*faults, *self._answer(heard.frame, heard.answer, heard))
             self.simulator.observed(self.name, heard, happened)
+        self.simulator.report_changes()
         self._stop_waiting()
         if ear.waiting or self._noises:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
@@ -314,18 +323,9 @@ class Host:
         """Send a response, and return its faults."""
         character_time = (self.uart or Uart()).character_time
         exchange = self._exchange(request, answer, heard)
-        faults, delay = self.simulator.faults.answers(exchange.address), heard.delay
+        faults = self.simulator.faults.answers(exchange.address)
         transfer = faults.delivered(answer, character_time, self.simulator.chance, exchange)
-        late = [piece for piece in transfer.pieces if delay + piece.after]
-        if late and not self._has_room(late):
-            self.simulator.notice(_LOST)
-            return *transfer.faults, _LOST
-        for piece in transfer.pieces:
-            if delay + piece.after:
-                self._write_later(delay + piece.after, piece.wire)
-            else:
-                self._write(piece.wire)
-        return transfer.faults
+        return self._deliveries.send(transfer, heard.delay)
 
     def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
         """Return the exchange of an answer, and remember the answer."""
@@ -335,19 +335,6 @@ class Host:
         checksum = heard.profile is not None and heard.profile.checksum
         return Exchange(request, heard.protocol, checksum, self._earlier)
 
-    def _has_room(self, late: Sequence[Piece]) -> bool:
-        size = sum(self._later.values()) + sum(len(piece.wire) for piece in late)
-        return len(self._later) + len(late) <= MOST_LATE_PIECES and size <= MOST_LATE_BYTES
-
-    def _write_later(self, seconds: float, wire: bytes) -> None:
-        def write() -> None:
-            del self._later[handle]
-            self._write(wire)
-            self._check_finished()
-
-        handle = self._loop.call_later(seconds, write)
-        self._later[handle] = len(wire)
-
     def _check_finished(self) -> None:
-        if self._finished and not self._later and not self._silence:
+        if self._finished and not self._deliveries and not self._silence:
             self._finished()
