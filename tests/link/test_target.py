@@ -186,8 +186,8 @@ def test_simulated_modules_have_faults_signals_and_the_init_switch() -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("sim:", "target cannot be 'sim:': '': model cannot be ''"),
-        ("sim:I-7020", "target cannot be 'sim:I-7020': 'I-7020': model cannot be 'I-7020': I-7017"),
+        ("sim:", "target cannot be 'sim:': module '': there is no model ''"),
+        ("sim:I-7020", "target cannot be 'sim:I-7020': module I-7020: there is no model 'I-7020'; did you mean I-7018"),
         ("sim:I-7018,typ=K", "a module has no setting 'typ'"),
     ],
 )

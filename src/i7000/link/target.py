@@ -108,7 +108,7 @@ def _simulated(target: str, text: str, line: LineSettings, options: TargetOption
     modules = []
     for address, written in enumerate(_NEXT_MODULE.split(text), 1):
         try:
-            described = read_module(written, address)
+            described = read_module(written.strip(), address, "module")
         except UsageError as error:
             raise InvalidValueError("target", target, str(error), "") from None
         switch = options.get("init_switch", False) or described.init_switch
