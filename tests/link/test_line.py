@@ -521,7 +521,7 @@ def test_a_port_is_closed_again_if_its_line_cannot_be_made(
     with pytest.raises(InvalidValueError, match="policy") as raised:
         asyncio.run(opened("patient"))
 
-    assert raised  # which holds the port, so that it is not closed because it is forgotten
+    assert raised.value.field == "policy"  # it holds the port, which is closed when it is forgotten
     assert "sim:I-7018" in [port.name for port in closed]
 
 
