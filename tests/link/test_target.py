@@ -139,11 +139,19 @@ def test_a_loop_returns_what_is_written() -> None:
         assert port.read(5) == b"$012\r"
 
 
-def test_an_unknown_scheme_is_an_error_with_those_that_are_known() -> None:
-    assert refusal("tcp://127.0.0.1:5020") == (
-        "target cannot be 'tcp://127.0.0.1:5020': a device such as /dev/ttyUSB0 or COM3, socket://HOST:PORT, "
+@pytest.mark.parametrize(
+    "text",
+    ["tcp://127.0.0.1:5020", "socket://:5020", "rfc2217://localhost", "socket://localhost:http", "socket://[::1"],
+)
+def test_a_url_that_is_none_of_pyserial_is_an_error_with_those_that_are(text: str) -> None:
+    assert refusal(text) == (
+        f"target cannot be '{text}': a device such as /dev/ttyUSB0 or COM3, socket://HOST:PORT, "
         "rfc2217://HOST:PORT, sim:MODEL or exec:COMMAND"
     )
+
+
+def test_a_url_that_matches_no_port_is_an_error() -> None:
+    assert refusal("hwgrep://no_such") == "hwgrep://no_such: no ports found matching regexp 'no_such'"
 
 
 @pytest.mark.parametrize("text", ["", " "])

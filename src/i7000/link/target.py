@@ -14,6 +14,7 @@ import re
 import shlex
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack, cast
+from urllib.parse import urlsplit
 
 import serial
 
@@ -133,10 +134,14 @@ def _process(target: str, text: str, options: TargetOptions) -> Port:
 def _serial(target: str, line: LineSettings, rs485: "RS485Settings | None", *, url: bool) -> Port:
     """Open a port of pyserial."""
     settings = settings_of(line)
+    if url and not _is_complete(target):
+        raise InvalidValueError("target", target, FORMS, "")
     try:
         port = _unopened(target, exclusive=True, **settings)
     except ValueError:
         raise InvalidValueError("target", target, FORMS, "") from None
+    except OSError as error:
+        raise LinkError(f"{target}: {error}") from None
     try:
         port.open()
         if rs485:
@@ -145,6 +150,15 @@ def _serial(target: str, line: LineSettings, rs485: "RS485Settings | None", *, u
         port.close()
         raise LinkError(f"{target}: {_reason(error)}{'' if url else _possible()}") from None
     return port
+
+
+def _is_complete(target: str) -> bool:
+    """Return whether a URL of the network names a host and a port."""
+    try:
+        url = urlsplit(target)
+        return url.scheme not in ("socket", "rfc2217") or (bool(url.hostname) and url.port is not None)
+    except ValueError:
+        return False
 
 
 def _unopened(target: str, **settings: Any) -> serial.Serial:  # noqa: ANN401 - of pyserial
