@@ -11,6 +11,7 @@ from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
+from i7000.cli.proxy import proxy
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -28,7 +29,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, simulate):
+for _command in (decode, encode, commands, registers, errata, simulate, proxy):
     app.command(_command)
 
 
