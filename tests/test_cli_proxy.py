@@ -1,5 +1,7 @@
 """``i7000 proxy`` in front of simulated modules."""
 
+import errno
+import io
 import os
 import re
 import signal
@@ -8,7 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -30,8 +32,12 @@ def proxied(
 ) -> Told:
     """Call the command, do something when it listens for commands, and end it."""
 
+    ended = Event()
+
     def do() -> None:
-        until(control.is_socket)
+        until(lambda: ended.is_set() or control.is_socket())
+        if ended.is_set():
+            return
         try:
             meanwhile()
         finally:
@@ -43,6 +49,7 @@ def proxied(
     try:
         return run("proxy", target, "--control", str(control), *arguments)
     finally:
+        ended.set()
         doing.join()
 
 
@@ -70,8 +77,7 @@ def test_a_driver_talks_to_the_target_through_faults_that_change(run: Run, tmp_p
     assert (told.code, told.err, place) == (0, "", url)
     assert [re.sub(r"^ +\d+\.\d{3}  ", "", line) for line in lines] == [
         "-> $01M", "<- !017018", "-> $01M", "<- ?01  [refused]", "-> $02M",
-        "<- 21 30 32 37 30 31 37 0D 21 30 32 37 30 31 37 0D  [sent twice]"
-        if "21 30" in lines[-1] else r"<- !027017\r!027017  [sent twice]",
+        r"<- !027017\r!027017  [sent twice]",
     ]  # fmt: skip
 
 
@@ -92,7 +98,7 @@ def test_rfc_2217_sets_the_line_of_the_target(run: Run, tmp_path: Path) -> None:
     with simulate(Simulated(eeprom, default_sources(eeprom)), over="rfc2217") as running:
         told = proxied(run, running.url, "--rfc2217", str(outer), control=tmp_path / "sock", meanwhile=meanwhile)
 
-    assert told.code == 0
+    assert (told.code, told.err) == (0, "")
     assert heard[0] != b"!017018\r"
     assert heard[1] == b"!017018\r"
 
@@ -144,11 +150,13 @@ def test_commands_come_from_standard_input_too(run: Run) -> None:
 
 
 def test_an_output_that_cannot_be_written_is_a_failure(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    full = open("/dev/full", "w", encoding="utf-8")  # noqa: SIM115, PTH123
-    monkeypatch.setattr("sys.stdout", full)
+    class Full(io.StringIO):
+        def write(self, text: str) -> int:  # noqa: ARG002
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("sys.stdout", Full())
     with simulate(I_7018, over="socket") as running:
         told = run("proxy", running.url, "--tcp", "0", "--control", "-", stdin=b"fault\n")
-    monkeypatch.undo()
 
     assert told.code == 2
 
@@ -159,7 +167,7 @@ def test_an_output_that_cannot_be_written_is_a_failure(run: Run, monkeypatch: py
         ((" ",), "give a target, such as /dev/ttyUSB0"),
         (("/dev/null", "--fault", "x"), "there is no fault 'x'"),
         (("/dev/null", "--character-format", "N8"), "'N8' is not one of"),
-        (("/dev/null", "--baud", "0"), "rate cannot be 0"),
+        (("/dev/null", "--baud", "0"), "--baud cannot be 0"),
         (("/dev/null", "--tcp", "x"), "is not [HOST:]PORT"),
     ],
 )

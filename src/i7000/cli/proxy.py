@@ -1,10 +1,11 @@
 """``i7000 proxy``: a real line with the faults of a bad one."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 from cyclopts import Parameter
 
-from i7000 import CharacterFormat
+from i7000 import CharacterFormat, InvalidValueError
+from i7000.cli.refusals import as_written
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError, member
 
@@ -66,13 +67,17 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     from i7000.cli.serving import read_place  # noqa: PLC0415
     from i7000.device import Uart  # noqa: PLC0415
 
-    form = member(character_format, CharacterFormat)
-    if not isinstance(form, CharacterFormat) or not target.strip():
+    if not target.strip():
         raise UsageError("give a target, such as /dev/ttyUSB0")
+    form = cast(CharacterFormat, member(character_format, CharacterFormat))
+    try:
+        uart = Uart(baud, parity=form.parity, stop_bits=form.stop_bits)
+    except InvalidValueError as refusal:
+        raise UsageError(as_written(refusal, "--baud", str(baud))) from None
     places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     proxied = proxying.Proxied(
         target,
-        Uart(baud, parity=form.parity, stop_bits=form.stop_bits),
+        uart,
         read_faults(fault),
         seed,
         pty or not places,

@@ -104,4 +104,5 @@ def carried_line(carried: Carried) -> Text:
 
 def _wire_words(wire: bytes) -> str:
     text = wire.removesuffix(b"\r").decode("latin-1")
-    return text if wire.endswith(b"\r") and text.isascii() and text.isprintable() else wire.hex(" ").upper()
+    is_text = wire.endswith(b"\r") and text.isascii() and text.replace("\r", "").isprintable()
+    return escaped(text) if is_text else wire.hex(" ").upper()

@@ -12,6 +12,7 @@ from threading import Thread
 from typing import Any
 
 import serial
+from serial import rfc2217
 
 from i7000.device import Uart
 
@@ -36,10 +37,12 @@ def open_port(target: str, uart: Uart) -> Any:  # noqa: ANN401 - pyserial has no
     """
     try:
         port: Any = serial.serial_for_url(target, do_not_open=True)
-        port.timeout, port.write_timeout = _LOOK, _WRITE_TIMEOUT
+        port.timeout = _LOOK
+        if not isinstance(port, rfc2217.Serial):  # which refuses such a limit
+            port.write_timeout = _WRITE_TIMEOUT
         _tune(port, uart)
         port.open()
-    except (ValueError, OSError) as error:
+    except Exception as error:  # noqa: BLE001 - pyserial lets errors of termios and of sockets through
         raise TargetError(f"{target}: {getattr(error, 'strerror', None) or error}") from None
     return port
 
