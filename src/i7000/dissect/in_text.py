@@ -25,6 +25,8 @@ _INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|(?<![^\W_])(?:z+|(?:
 """What stands before a frame: nothing, a time or a number, a word for the direction, or a sign."""
 _MEASURED = pattern(rf"[~@#$]\d+(?:(?:\.\d+)?\s?(?:{UNITS})\b|:\d\d(?!\d))")
 """``~100 ms``, ``@12:00``."""
+_NO_TEXT = pattern("[\udc80-\udcff]")
+"""A byte that is no UTF-8, as `surrogateescape` decodes it: sentences have none."""
 _NUMBERED = pattern(r">[+-]\d")
 
 
@@ -87,7 +89,8 @@ def _is_apart(characters: str, start: int, end: int) -> bool:
     before = without_numbers(characters[max(0, start - _NEAR) : start])
     if not _INTRODUCED.search(before):
         return False
-    return end - start > _BARE or not characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
+    after = characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
+    return end - start > _BARE or not after or _NO_TEXT.match(after) is not None
 
 
 def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:
