@@ -44,6 +44,12 @@ def test_the_listener_prints_what_its_comments_say(capsys: pytest.CaptureFixture
     assert f"\n# {facts}\n" in README
 
 
+def test_the_simulator_in_a_test_prints_what_its_comment_says(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(3)
+
+    assert f"# {capsys.readouterr().out.strip()}: a pseudo-terminal" in README
+
+
 @pytest.mark.parametrize(
     "name", [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md"]
 )
