@@ -150,6 +150,7 @@ _MODULES = device.Bus((_MODULE,))
 _SIGNALS = device.Signals()
 _UART = device.Uart()
 _BUS = host.Bus[Any]()
+_SCANNED = ((i7000.LineSettings(),), (0x01,), (i7000.Protocol.DCON,), (False,))
 _OPEN = host.send(_BUS, _READ, _I7018, 1.0)
 
 _EEPROM = device.factory(Model.M_7019R)
@@ -244,6 +245,11 @@ CALLS = (
     call("procedures.Tune", i7000.LineSettings()),
     call("procedures.Wait", 1.0),
     call("procedures.ask", _READ, _I7018, None),
+    call("procedures.identify", 0x01, protocols=(i7000.Protocol.DCON,), checksum=False, policy=host.Policy()),
+    call("procedures.places", *_SCANNED),
+    call("procedures.read", 0x01, _I7018, protocol=i7000.Protocol.DCON, mask=0xFF, policy=host.Policy()),
+    call("procedures.scan", *_SCANNED, policy=host.Policy()),
+    call("procedures.scan_time", *_SCANNED, policy=host.Policy()),
     call("device.Bus", (_MODULE,), clock=1.0),
     call("device.Bus.step", b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.hear", device.Ear(), b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
@@ -304,6 +310,8 @@ LEFT_OUT = {
             "i7000.InvalidValueError", "i7000.StateError", "i7000.Noise", "modbus.Plan", "modbus.Register",
             "modbus.LogRecord", "host.Answered", "host.Declined", "host.Late", "host.Rejected", "host.Sent",
             "host.TimedOut", "host.Transmit", "procedures.Result", "procedures.Tell",
+            "procedures.Candidate", "procedures.ChannelFault", "procedures.Finding", "procedures.Identified",
+            "procedures.Place", "procedures.Progress", "procedures.Report", "procedures.Scanned", "procedures.Unknown",
             "device.Heard", "device.Record", "dissect.ChannelReading",
             "dissect.Field", "dissect.Fit", "dissect.Found", "dissect.Heard", "dissect.Item",
             "dissect.Meaning", "dissect.Piece", "dissect.Place",

@@ -65,7 +65,7 @@ def test_a_driver_talks_to_the_target_through_faults_that_change(run: Run, tmp_p
 
     with simulate(I_7018, module(Model.I_7017, address=2)) as running:
         told = proxied(
-            run, running.url, "--tcp", str(port), "--fault", "duplicate=1@02", "--view", "lines",
+            run, running, "--tcp", str(port), "--fault", "duplicate=1@02", "--view", "lines",
             control=control, meanwhile=meanwhile,
         )  # fmt: skip
 
@@ -96,7 +96,7 @@ def test_rfc_2217_sets_the_line_of_the_target(run: Run, tmp_path: Path) -> None:
             heard.append(opened.read_until(b"!017018\r")[-8:])
 
     with simulate(Simulated(eeprom, default_sources(eeprom)), over="rfc2217") as running:
-        told = proxied(run, running.url, "--rfc2217", str(outer), control=tmp_path / "sock", meanwhile=meanwhile)
+        told = proxied(run, running, "--rfc2217", str(outer), control=tmp_path / "sock", meanwhile=meanwhile)
 
     assert (told.code, told.err) == (0, "")
     assert heard[0] != b"!017018\r"
@@ -105,7 +105,7 @@ def test_rfc_2217_sets_the_line_of_the_target(run: Run, tmp_path: Path) -> None:
 
 def test_a_pseudo_terminal_is_the_default(run: Run, tmp_path: Path) -> None:
     with simulate(I_7018, over="socket") as running:
-        told = proxied(run, running.url, control=tmp_path / "sock", meanwhile=lambda: None)
+        told = proxied(run, running, control=tmp_path / "sock", meanwhile=lambda: None)
 
     assert re.fullmatch(r"/dev/\S+\n", told.out)
 
@@ -134,7 +134,7 @@ def test_a_target_that_is_gone_is_no_link(run: Run, tmp_path: Path) -> None:
 def test_a_signal_ends_it(run: Run, tmp_path: Path, number: signal.Signals, code: int) -> None:
     with simulate(I_7018, over="socket") as running:
         told = proxied(
-            run, running.url, "--tcp", "0", control=tmp_path / "sock",
+            run, running, "--tcp", "0", control=tmp_path / "sock",
             meanwhile=lambda: os.kill(os.getpid(), number), end=b"",
         )  # fmt: skip
 
@@ -143,7 +143,7 @@ def test_a_signal_ends_it(run: Run, tmp_path: Path, number: signal.Signals, code
 
 def test_commands_come_from_standard_input_too(run: Run) -> None:
     with simulate(I_7018, over="socket") as running:
-        told = run("proxy", running.url, "--tcp", "0", "--control", "-", stdin=b"fault late=0.1\nquit\n")
+        told = run("proxy", running, "--tcp", "0", "--control", "-", stdin=b"fault late=0.1\nquit\n")
 
     assert told.code == 0
     assert told.out.splitlines()[1:] == ["ok late=0.1:0.3", "ok"]
@@ -156,7 +156,7 @@ def test_an_output_that_cannot_be_written_is_a_failure(run: Run, monkeypatch: py
 
     monkeypatch.setattr("sys.stdout", Full())
     with simulate(I_7018, over="socket") as running:
-        told = run("proxy", running.url, "--tcp", "0", "--control", "-", stdin=b"fault\n")
+        told = run("proxy", running, "--tcp", "0", "--control", "-", stdin=b"fault\n")
 
     assert told.code == 2
 

@@ -80,7 +80,7 @@ def test_a_frame_is_written_as_people_write_it(wire: bytes, text: str) -> None:
     assert written(wire) == text
 
 
-@given(st.binary(max_size=60) | st.text("0A2 \\x\r", max_size=60).map(str.encode))
+@given(st.binary(max_size=20) | st.text("0A2 \\x\r", max_size=60).map(str.encode))
 def test_a_frame_that_is_not_cut_can_be_read_back(wire: bytes) -> None:
     text = written(wire)
     escape = r"\\(?:x([0-9A-F]{2})|(.))"
@@ -93,8 +93,7 @@ def test_a_frame_that_is_not_cut_can_be_read_back(wire: bytes) -> None:
     else:
         read = re.sub(escape, unescaped, text).encode("latin-1")
 
-    assert wire.startswith(read)
-    assert wire == read or text.endswith(f"... ({len(wire)} bytes)")
+    assert wire == read
 
 
 @pytest.mark.parametrize("value", [10**5000, -(10**5000), (10**5000,)], ids=["large", "negative", "within"])

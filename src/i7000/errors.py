@@ -143,8 +143,9 @@ class ArgumentError(I7000Error, TypeError):
         self.reason = reason
 
     def __str__(self) -> str:
-        reason = self.reason or f"{self.argument} cannot be {shown(self.value)} ({type(self.value).__name__})"
-        return f"{reason}: {self.allowed}"
+        if self.reason:
+            return f"{self.reason}: {self.allowed}"
+        return f"{self.argument} must be {self.allowed}, not {shown(self.value)} ({type(self.value).__name__})"
 
 
 class StateError(I7000Error):

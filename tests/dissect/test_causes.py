@@ -257,4 +257,4 @@ def test_the_code_of_different_types_is_one_that_every_model_can_have() -> None:
 
 
 def test_what_has_no_more_characters_than_a_checksum_has_no_cause() -> None:
-    assert last_heard("$0", known=I_7018).notes == ()
+    assert last_heard("$012", "01", known=I_7018).notes == ()

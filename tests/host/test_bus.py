@@ -63,8 +63,9 @@ def idle(**changes: Any) -> Bus[Any]:
 
 
 def ask(bus: Bus[Any], command: Query[Any], profile: Profile = M7019, now: float = 0.0) -> Bus[Any]:
-    """Send what goes out at once."""
-    bus, events = go(send(bus, command, profile, now), now)
+    """Open a request so that it goes out now, after its short silence."""
+    bus = send(bus, command, profile, max(bus.clock, now - bus.silence))
+    bus, events = go(bus, due(bus))
 
     assert [Transmit] == [type(event) for event in events]
     return bus
@@ -103,11 +104,12 @@ def due(bus: Bus[Any]) -> float:
         (COIL, M7019, COIL_WIRE),
     ],
 )
-def test_a_request_goes_out_at_once_on_an_idle_line(command: Any, profile: Profile, wire: bytes) -> None:
+def test_a_request_goes_out_after_a_short_silence_on_an_idle_line(command: Any, profile: Profile, wire: bytes) -> None:
     bus = send(idle(), command, profile, 0.0)
 
-    assert next_deadline(bus) == 0.0
-    assert (Transmit(wire),) == go(bus, 0.0)[1]
+    assert pytest.approx(SILENCE) == next_deadline(bus)
+    assert go(bus, 0.0)[1] == ()
+    assert (Transmit(wire),) == go(bus, due(bus))[1]
 
 
 def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing() -> None:
@@ -505,7 +507,7 @@ def test_a_response_later_than_the_grace_can_be_mistaken() -> None:
 
 FACTORY = modbus.WriteSingleCoil(0x01, 271, value=True)
 PAUSES: list[tuple[Query[Any], bytes, Query[Any], float]] = [
-    (READ, MASK_WIRE, READ, 0.0),
+    (READ, MASK_WIRE, READ, 0.05 + SILENCE),
     (dcon.ReloadDefaultCalibration(0x01), b"!01\r", READ, 6 * CHARACTER + 3),
     (dcon.ReloadDefaultCalibration(0x01), b"?01\r", READ, 6 * CHARACTER + 3),
     (FACTORY, modbus.encode(FACTORY), WORDS, 8 * CHARACTER + 3),
@@ -521,8 +523,8 @@ def test_a_pause_that_is_owed_is_kept(first: Query[Any], answer: bytes, second: 
     bus = send(bus, second, M7019, 0.05)
 
     assert len(events) == 1
-    assert pytest.approx(max(until, 0.05)) == due(bus)
-    assert until < 0.05 or go(bus, due(bus) - 1e-6)[1] == ()
+    assert pytest.approx(until) == due(bus)
+    assert go(bus, due(bus) - 1e-6)[1] == ()
     assert [Transmit] == [type(event) for event in go(bus, due(bus))[1]]
 
 

@@ -14,7 +14,7 @@ from i7000.device.uart import hear_at
 from i7000.errors import InvalidValueError, StateError
 from i7000.link import VirtualPort
 from i7000.link.virtual import BUFFER
-from i7000.simulator.faults import Faults
+from i7000.simulator.faults import Faults, Way
 from i7000.simulator.sources import Fixed, Ramp, Sources
 from tests.simulator.running import module
 
@@ -336,6 +336,26 @@ def test_a_late_response_does_not_delay_another() -> None:
 @pytest.mark.parametrize("faults", [Faults(drop=1.0), Faults(flip=1.0)], ids=["drop", "flip"])
 def test_a_damaged_command_gets_no_answer(faults: Faults) -> None:
     assert answer(dcon_port(faults=faults)) == b""
+
+
+def test_faults_can_be_those_of_one_address_or_direction() -> None:
+    modules = [power_on(evolve(factory(Model.I_7018), address=address), now=0.0) for address in (1, 2)]
+    port = VirtualPort(modules, [VOLTS, VOLTS], Faults().at(0x02, silent=1.0))
+    assert (answer(port), answer(port, b"#020\r")) == (SAID, b"")
+
+    port.faults = Faults().at(Way.TO, drop=1.0)
+    assert answer(port) == b""
+
+    port.faults = Faults().at(Way.FROM, refuse=1.0)
+    assert answer(port) == b"?01\r"
+
+
+def test_an_earlier_response_can_come_again() -> None:
+    port = dcon_port()
+    assert answer(port, b"$01M\r") == b"!017018\r"
+    port.faults = Faults(replay=1.0)
+
+    assert answer(port) == b"!017018\r"
 
 
 def test_the_same_seed_repeats_the_faults_and_another_does_not() -> None:

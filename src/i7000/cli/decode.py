@@ -12,8 +12,7 @@ from attrs import frozen
 from cyclopts import Parameter
 
 from i7000.cli.frame_text import frame_lines
-from i7000.cli.numbers import integer
-from i7000.cli.options import LAST_ADDRESS, PROTOCOLS, UNKNOWN, Json, Module
+from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
 from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_recording, of_stream
 from i7000.cli.records import json_of
 from i7000.cli.schema import SCHEMA
@@ -38,10 +37,7 @@ def decode(  # noqa: PLR0913 - each of them is an option
     protocol: Annotated[
         Literal["auto", "dcon", "rtu"], Parameter(help="The protocol on the line; auto recognizes both, even mixed.")
     ] = "auto",
-    address: Annotated[
-        tuple[str, ...],
-        Parameter(help="Show only the module at this address. Example: --address 2.", negative="", show_default=False),
-    ] = (),
+    address: Annotated[Texts, Parameter(help="Show only the module at this address. Example: --address 2.")] = (),
     strict: Annotated[bool, Parameter(help="Exit with 1 if a line has no frame.", negative="")] = False,
     json: Json = False,
     schema: Annotated[bool, Parameter(help="Print the JSON Schema of --json and exit.", negative="")] = False,
@@ -68,18 +64,11 @@ def decode(  # noqa: PLR0913 - each of them is an option
         sys.stdout.write(f"{SCHEMA}\n")
         return 0
     knowledge = module.knowledge(protocol)
-    shown = frozenset(map(_address, address))
+    shown = frozenset(map(address_of, address))
     printer = Printer(json=json)
     with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
         tally = _print(reads, knowledge, shown, printer)
     return tally.code(printer, lines.long if lines else Counted(), strict=strict)
-
-
-def _address(text: str) -> int:
-    number = integer(text)
-    if not 0 <= number <= LAST_ADDRESS:
-        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
-    return number
 
 
 # --- what is decoded --------------------------------------------------------------------------------------------------

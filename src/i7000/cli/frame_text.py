@@ -5,7 +5,7 @@ from functools import lru_cache
 from itertools import groupby
 from operator import attrgetter
 
-from i7000 import Protocol, Status, describe
+from i7000 import Fault, Protocol, Status, describe
 from i7000.cli.readers import Read
 from i7000.cli.records import OPTIONS, VALUES, fault_words
 from i7000.cli.text import Line
@@ -26,7 +26,9 @@ def frame_lines(read: Read, *, models: bool) -> Iterator[Line]:
         yield _row("note", read.note or "")
         return
     if heard.error is not None:
-        yield [(f"{_INDENT}not understood: {fault_words(heard.error)}", "red")]
+        noted = heard.error.fault is Fault.CHECKSUM and any("checksum" in note for note in heard.notes)
+        wrong = "the checksum is missing or wrong" if noted else fault_words(heard.error)
+        yield [(f"{_INDENT}not understood: {wrong}", "red")]
     known = heard.meanings if len(heard.meanings) == 1 else ()
     short = len(heard.wire) <= _SHORT
     for meaning in known:

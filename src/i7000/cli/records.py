@@ -8,15 +8,18 @@ import json
 from collections.abc import Iterable
 from enum import Enum
 from functools import cache, lru_cache
+from itertools import chain, cycle, repeat
+from json.encoder import encode_basestring_ascii as _quoted
 from typing import Any
 
-from attrs import fields
+from attrs import field, fields, frozen
 
 from i7000 import DecodeError, LineSettings, ReportSettings, Status, dcon, modbus
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
-from i7000.dissect.meaning import errata
+from i7000.dissect.meaning import Fit, errata
+from i7000.readings import Reading
 from i7000.settings import Protocol
 
 __all__ = [
@@ -67,25 +70,29 @@ def json_of(read: Read) -> str:
     if heard is not None and meaning is not None:
         middle = (_remembered_json if len(heard.wire) <= _SHORT else _meaning_json)(meaning)
     good = meaning is not None and heard is not None and not heard.notes and heard.understood
-    return f"{_json(_head(read))[:-1]}, {middle}, {_NOTHING_WRONG if good else _json(_tail(read, meaning))[1:]}"
+    return f"{_head_json(read)}, {middle}, {_NOTHING_WRONG if good else _json(_tail(read, meaning))[1:]}"
 
 
-def _head(read: Read) -> Record:
-    heard = read.heard
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "record": read.number,
-        "line": read.line,
-        "last_line": read.last,
-        "time": read.time,
-        "text": read.text,
-        "protocol": None if heard is None else _PROTOCOLS[heard.protocol],
-        "direction": None if heard is None or heard.direction is None else heard.direction.value,
-        "address": None if heard is None else heard.address,
-        "frame": None if heard is None else _frame(heard),
-        "wire": None if heard is None else heard.wire.hex(),
-        "answers": None if heard is None or heard.answers is None else heard.answers.number,
-    }
+def _head_json(read: Read) -> str:
+    """Return the keys of a frame in its place, as the beginning of a JSON object."""
+    number, line, last, text, time, heard, *_ = read
+    place = (
+        f'{{"schema_version": {SCHEMA_VERSION}, "record": {number}, "line": {line}, "last_line": {last}, '
+        f'"time": {_NULL if time is None else _quoted(time)}, "text": {_quoted(text)}, '
+    )
+    if heard is None:
+        return f"{place}{_NOT_HEARD}"
+    address, answers = heard.address, heard.answers
+    direction = _NULL if heard.direction is None else _quoted(heard.direction)
+    return (
+        f'{place}"protocol": "{_PROTOCOLS[heard.protocol]}", "direction": {direction}, '
+        f'"address": {_NULL if address is None else address}, "frame": {_quoted(_frame(heard))}, '
+        f'"wire": "{heard.wire.hex()}", "answers": {_NULL if answers is None else answers.number}'
+    )
+
+
+_NULL = "null"
+_NOT_HEARD = _json(dict.fromkeys(("protocol", "direction", "address", "frame", "wire", "answers")))[1:-1]
 
 
 def _tail(read: Read, meaning: Meaning | None) -> Record:
@@ -161,58 +168,93 @@ def _meaning_json(meaning: Meaning) -> str:
 
     Special: of readings, of which a log has most, only what differs is encoded each time.
     """
-    if not meaning.readings:
+    readings, message = meaning.readings, meaning.message
+    if not readings:
         return _json(meaning_record(meaning))[1:-1]
-    before, after = _around_readings(meaning)
-    kind: Any = type(meaning.message)
-    values = {name: _plain(getattr(meaning.message, name)) for name in _names(kind)}
-    words = {}
-    if len(values) > 1 or not values.keys() <= VALUES:
-        words = {field.name: field.text for field in meaning.fields if field.name not in VALUES}
-    readings = ", ".join(map(_reading_json, meaning.readings))
-    items = ", ".join(map(_item_json, meaning.items))
+    kind: Any = type(message)
+    names = _names(kind)
+    values = tuple([getattr(message, name) for name in names])
+    others = tuple([value for name, value in zip(names, values, strict=True) if name not in VALUES])
+    before, words, after = _around(_Report(kind, type(meaning.command), meaning.fit, meaning.assumed, others, meaning))
+    written = ", ".join([f'"{name}": {_value_json(value)}' for name, value in zip(names, values, strict=True)])
+    found, items = _readings_json(readings, meaning.items)
     return (
-        f'{before}, "fields": {_json(values)}, "explained": {_json(words) if words else "{}"}, '
-        f'"readings": [{readings}], "registers": [{items}], {after}'
+        f'{before}, "fields": {{{written}}}, "explained": {words}, '
+        f'"readings": [{found}], "registers": [{items}], {after}'
     )
 
 
-def _around_readings(meaning: Meaning) -> tuple[str, str]:
-    """Return the keys before and after those of the readings, which all reports of a module share."""
-    key = (type(meaning.message), type(meaning.command), meaning.fit, meaning.assumed)
-    found = _AROUND.get(key)
-    if found is None:
-        if len(_AROUND) >= _REMEMBERED:
-            _AROUND.clear()
-        record = meaning_record(meaning)
-        keys = list(record)
-        parts = (keys[: keys.index("fields")], keys[keys.index("errata") :])
-        before, after = ({name: record[name] for name in part} for part in parts)
-        found = _AROUND[key] = _json(before)[1:-1], _json(after)[1:-1]
-    return found
+@frozen
+class _Report:
+    """What the reports of a module share; they are equal if they differ in nothing but their readings."""
+
+    kind: type
+    command: type
+    fit: Fit
+    assumed: tuple[str, ...]
+    others: tuple[Any, ...]
+    """The fields that are no readings."""
+    meaning: Meaning = field(eq=False)
+    """One of them."""
 
 
-_AROUND: dict[tuple[Any, ...], tuple[str, str]] = {}
+@lru_cache(maxsize=_REMEMBERED)
+def _around(report: _Report) -> tuple[str, str, str]:
+    """Return the keys before the fields, the fields in words, and the keys after the readings."""
+    record = meaning_record(report.meaning)
+    names = list(record)
+    parts = (names[: names.index("fields")], names[names.index("errata") :])
+    before, after = (_json({name: record[name] for name in part})[1:-1] for part in parts)
+    words = {name: text for name, text in record["explained"].items() if name not in VALUES}
+    return before, _json(words), after
 
 
-def _reading_json(reading: ChannelReading) -> str:
-    channel, text, status, type_code, value, unit = reading
-    if status is not Status.OK or channel is None or type_code is None:
-        return _json(_reading(reading))
-    return (
-        f'{{"channel": {channel}, "text": "{text}", "status": "ok", "type_code": {type_code:d}, '
-        f'"value": {value!r}, "unit": "{unit}"}}'
+def _value_json(value: Any) -> str:  # noqa: ANN401 - of any field
+    if value.__class__ is int:
+        return repr(value)
+    if value.__class__ is tuple and {int}.issuperset(map(type, value)):
+        return repr([*value])
+    return _json(_plain(value))
+
+
+def _readings_json(readings: tuple[ChannelReading, ...], items: tuple[Item, ...]) -> tuple[str, str]:
+    """Return readings and the registers that have them, each as the inner part of a JSON array."""
+    channels, texts, statuses, types, values, units = zip(*readings, strict=True)
+    if statuses.count(Status.OK) == len(readings):
+        statuses = _ALL_OK
+    written = [_NULL if value is None else repr(value) for value in values]
+    quoted = list(map(_quoted, texts))
+    found = _reading_form(channels, statuses, types, units) % tuple(
+        chain.from_iterable(zip(quoted, written, strict=True))
     )
+    if len(items) != len(readings):
+        return found, ", ".join([_json(_item(it)) for it in items])
+    numbers, names, channels, _, units, *_ = zip(*items, strict=True)
+    form = _item_form(numbers, names, channels, units, statuses)
+    return found, form % tuple(chain.from_iterable(zip(written, quoted, strict=True)))
 
 
-def _item_json(item: Item) -> str:
-    number, name, channel, value, unit, text, reading, *_ = item
-    if reading is None or reading.status is not Status.OK or channel is None:
-        return _json(_item(item))
-    return (
-        f'{{"number": "{number}", "name": "{name}", "channel": {channel}, "value": {value!r}, "unit": "{unit}", '
-        f'"status": "ok", "text": "{text}"}}'
-    )
+_Every = tuple[Any, ...]
+_ALL_OK = (Status.OK,)
+"""Stands for the statuses of any number of readings, since a hash of each takes longer than the rest."""
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _reading_form(channels: _Every, statuses: _Every, types: _Every, units: _Every) -> str:
+    """Return the JSON of readings, with gaps for the texts and the values."""
+    found = map(ChannelReading, channels, repeat("%s"), cycle(statuses), types, repeat("%s"), units)
+    return _with_gaps(map(_reading, found))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _item_form(numbers: _Every, names: _Every, channels: _Every, units: _Every, statuses: _Every) -> str:
+    """Return the JSON of registers with readings, with gaps for the values and the texts."""
+    readings = map(Reading, repeat(None), units, cycle(statuses))
+    return _with_gaps(map(_item, map(Item, numbers, names, channels, repeat("%s"), units, repeat("%s"), readings)))
+
+
+def _with_gaps(records: Iterable[Record]) -> str:
+    return ", ".join(map(_json, records)).replace('"%s"', "%s")
 
 
 _remembered_json = lru_cache(maxsize=_REMEMBERED)(_meaning_json)

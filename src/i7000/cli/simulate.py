@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from i7000.cli.options import Texts
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
 
@@ -14,12 +15,8 @@ __all__ = ["simulate"]
 def simulate(  # noqa: PLR0913 - each of them is an option
     *,
     model: Annotated[
-        tuple[str, ...],
-        Parameter(
-            help="A module, as MODEL[@FIRMWARE][,name=value...]; repeat it for each. Example: M-7019R,type=K.",
-            negative="",
-            show_default=False,
-        ),
+        Texts,
+        Parameter(help="A module, as MODEL[@FIRMWARE][,name=value...]; repeat it for each. Example: M-7019R,type=K."),
     ] = (),
     pty: Annotated[
         bool,
@@ -30,19 +27,13 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
     rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
     signal: Annotated[
-        tuple[str, ...],
-        Parameter(
-            help="A signal at the inputs, as [ADDRESS:]CHANNELS=SIGNAL. Example: 0=1.5V.",
-            negative="",
-            show_default=False,
-        ),
+        Texts,
+        Parameter(help="A signal at the inputs, as [ADDRESS:]CHANNELS=SIGNAL. Example: 0=1.5V."),
     ] = (),
     fault: Annotated[
-        tuple[str, ...],
+        Texts,
         Parameter(
-            help="A fault of the line, as NAME[=PROBABILITY][@WHERE]; repeat it for each. Example: late=0.25:0.9@01.",
-            negative="",
-            show_default=False,
+            help="A fault of the line, as NAME[=PROBABILITY][@WHERE]; repeat it for each. Example: late=0.25:0.9@01."
         ),
     ] = (),
     seed: Annotated[int, Parameter(help="Random seed for faults and noise; the same seed repeats the run.")] = 0,

@@ -124,7 +124,7 @@ class Bus(Generic[R_co]):
 
     @property
     def silence(self) -> float:
-        """The silence between Modbus frames in seconds: 3.5 characters."""
+        """The silence before each request in seconds: 3.5 characters. Modbus needs it; in DCON, it shows duplicates."""
         return max(_SILENT_CHARACTERS * self.character_time, _SHORTEST_SILENCE)
 
 
@@ -152,8 +152,8 @@ def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - field
 def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) -> Bus[R]:
     r"""Open a request. Its bytes come later, as `Transmit` of `receive`.
 
-    Time: `next_deadline` of the result is `now`, or later after a timeout, in a pause, or in the silence before a
-        Modbus frame.
+    Time: `next_deadline` of the result is 3.5 characters after `now`: so long, the line has to be silent. It is later
+        after a timeout and in a pause.
     Special: for a broadcast, only the checksum setting of `profile` is used.
     Errors: `EncodeError` if the module does not have the command; `InvalidValueError` for a time that is not finite;
         `StateError` if the previous request has no outcome yet, and for a time before the last call.
@@ -161,7 +161,7 @@ def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) ->
 
     >>> from i7000 import Model, dcon
     >>> bus = send(Bus[Response](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
-    >>> bus, events = receive(bus, b"", 0.0)
+    >>> bus, events = receive(bus, b"", next_deadline(bus))
     >>> events
     (Transmit(wire=b'$012\r'),)
     >>> receive(bus, b"!01050600\r", 0.1)[1][0].response.type_code
@@ -174,7 +174,7 @@ def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) ->
     if bus.pending:
         raise _still_open(bus.pending, now)
     exchange = prepare(command, profile)
-    due = max(now, bus.quiet_until, bus.heard_at + _silence(bus, exchange))
+    due = max(bus.quiet_until, max(now, bus.heard_at) + bus.silence)
     pending = Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange))
     return _changed(bus, pending=pending, clock=now)
 
@@ -246,11 +246,6 @@ def abandon(bus: Bus[R], now: float) -> Bus[R]:
 
 
 # --- the steps --------------------------------------------------------------------------------------------------------
-
-
-def _silence(bus: Bus[Response], exchange: Exchange[Response]) -> float:
-    """Return the silence that `exchange` needs before it: around RTU frames, and after an incomplete frame."""
-    return bus.silence if exchange.rtu or bus.rest or (bus.last and bus.last.rtu) else 0.0
 
 
 def _allowance(bus: Bus[Response], exchange: Exchange[Response]) -> float:
@@ -337,6 +332,6 @@ def _expire(bus: Bus[R], request: Pending[R]) -> tuple[Bus[R], tuple[Event[R], .
     bus = _changed(bus, quiet_until=_over(bus, request))
     if not request.retries:
         return _changed(bus, pending=None), (*events, TimedOut(request.exchange.command))
-    due = max(bus.quiet_until, bus.heard_at + _silence(bus, request.exchange))
+    due = max(bus.quiet_until, bus.heard_at + bus.silence)
     again = Pending(request.exchange, request.retries - 1, due, due + _allowance(bus, request.exchange))
     return _changed(bus, pending=again), events

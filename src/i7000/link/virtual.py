@@ -18,10 +18,10 @@ from attrs import evolve, frozen
 
 from i7000.arguments import as_bytes, check_seconds
 from i7000.device import Bus, Ear, Heard, Signals, State, Uart, advance, power_on
-from i7000.errors import InvalidValueError, StateError
+from i7000.errors import InvalidValueError, Noise, StateError
 from i7000.models import Model
 from i7000.settings import LineSettings, Protocol
-from i7000.simulator.faults import Faults
+from i7000.simulator.faults import Exchange, Faults
 from i7000.simulator.simulator import Simulated
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources, default_sources
 
@@ -103,6 +103,10 @@ class VirtualPort(serial.SerialBase):
         self._ticked = self._now
         self._order = count()
         self._received = bytearray()
+        self._last_request: bytes | None = None
+        self._last_answer: bytes | None = None
+        self._earlier: bytes | None = None
+        """The answer to the last request that differed from the last one."""
         self._polls = 0
         self._clear()
         self.is_open = True
@@ -240,10 +244,16 @@ class VirtualPort(serial.SerialBase):
 
     def _reconfigure_port(self) -> None:
         """Apply settings; what was written before is sent with the old ones."""
-        uart = Uart(self.baudrate, parity=self.parity, stop_bits=self.stopbits, data_bits=self.bytesize)
         if self.inter_byte_timeout is not None:
             raise InvalidValueError("inter_byte_timeout", self.inter_byte_timeout, "None: use timeout", "")
-        if uart != self._uart:
+        now = self._uart
+        if (now.rate, now.parity, now.stop_bits, now.data_bits) != (
+            self.baudrate,
+            self.parity,
+            self.stopbits,
+            self.bytesize,
+        ):
+            uart = Uart(self.baudrate, parity=self.parity, stop_bits=self.stopbits, data_bits=self.bytesize)
             self.flush()
             self._uart = uart
             self._ear = evolve(self._ear, uart=uart)
@@ -315,7 +325,7 @@ class VirtualPort(serial.SerialBase):
 
     def _hear(self) -> None:
         """Give the modules what the host has sent."""
-        wire, _ = self.faults.carried(self._burst.wire, self._chance)
+        wire, _ = self.faults.requests.carried(self._burst.wire, self._chance)
         self._burst = _Burst(b"", self._now, self._uart)
         self._bus, self._ear, told = self._bus.hear(self._ear, wire, self._sampled(), self._now)
         self._silent_at = self._now + self._silence_time if self._ear.waiting else inf
@@ -334,9 +344,18 @@ class VirtualPort(serial.SerialBase):
     def _answer(self, told: Iterable[Heard], silence: float) -> None:
         """Send responses; those of Modbus begin after the silence that ends their request."""
         for heard in told:
-            if heard.answer is None:
+            if isinstance(heard.frame, Noise) or heard.answer is None:
                 continue
+            exchange = self._exchange(heard.frame, heard.answer, heard)
+            faults, character_time = self.faults.answers(exchange.address), self._uart.character_time
             start = self._now + heard.delay + (silence if heard.protocol is Protocol.MODBUS_RTU else 0.0)
-            faults, character_time = self.faults, self._uart.character_time
-            for piece in faults.delivered(heard.answer, character_time, self._chance).pieces:
+            for piece in faults.delivered(heard.answer, character_time, self._chance, exchange).pieces:
                 heappush(self._pieces, (start + piece.after, next(self._order), piece.wire, faults.lumps))
+
+    def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
+        """Return the exchange of an answer, and remember the answer."""
+        if request != self._last_request:
+            self._last_request, self._earlier = request, self._last_answer
+        self._last_answer = answer
+        checksum = heard.profile is not None and heard.profile.checksum
+        return Exchange(request, heard.protocol, checksum, self._earlier)

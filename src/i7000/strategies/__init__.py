@@ -27,7 +27,8 @@ def register() -> None:
 
 def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class, and the strategy for it
     """Return the strategy for a class of the package; None for an enumeration, and for a class without one."""
-    by_kind = {**vocabulary.BY_KIND, **maps.BY_KIND, **device.BY_KIND, **host.BY_KIND, **procedures.BY_KIND}
+    sources = (vocabulary, maps, device, host, procedures, findings, settings)
+    by_kind = {kind: make for source in sources for kind, make in source.BY_KIND.items()}
     if kind in by_kind:
         return by_kind[kind]()
     if issubclass(kind, ModbusMessage):
@@ -38,7 +39,7 @@ def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class,
 # Hypothesis may call `register` while it is being imported, which may be by the modules that follow.
 from i7000.dcon import Message as DconMessage  # noqa: E402
 from i7000.modbus import Message as ModbusMessage  # noqa: E402
-from i7000.strategies import dcon, device, host, modbus, procedures, vocabulary  # noqa: E402
+from i7000.strategies import dcon, device, findings, host, modbus, procedures, settings, vocabulary  # noqa: E402
 from i7000.strategies.modbus import maps  # noqa: E402
 from i7000.strategies.vocabulary import (  # noqa: E402
     addresses,
@@ -56,6 +57,7 @@ __all__ = [
     "dcon",
     "device",
     "errors",
+    "findings",
     "firmwares",
     "host",
     "line_settings",
@@ -65,6 +67,7 @@ __all__ = [
     "readings",
     "register",
     "report_settings",
+    "settings",
     "strategy_for",
     "word_readings",
 ]

@@ -11,6 +11,57 @@ Laws: a procedure makes a bounded number of requests, so it ends on every line. 
 does: what it did not learn, and why, is in the value that it returns.
 """
 
+from i7000.host.procedures.change import Change, diff, restore, set_one
+from i7000.host.procedures.identified import Candidate, Identified, Unknown
+from i7000.host.procedures.identify import identify
+from i7000.host.procedures.places import EVERY_LINE, SCAN_POLICY, Place, places, scan_time
+from i7000.host.procedures.read import ChannelFault, Report, read
+from i7000.host.procedures.restoring import Restoration, Restored, Status
+from i7000.host.procedures.scan import Finding, Heard, Progress, Scanned, scan
+from i7000.host.procedures.settings import NOT_SETTINGS, Hazard, Setting, find_setting, hazard_of, settings_of
+from i7000.host.procedures.snapshot import SCHEMA_VERSION, Snapshot, snapshot
 from i7000.host.procedures.step import Ask, Procedure, Result, Step, Tell, Tune, Wait, ask
 
-__all__ = ["Ask", "Procedure", "Result", "Step", "Tell", "Tune", "Wait", "ask"]
+__all__ = [
+    "EVERY_LINE",
+    "NOT_SETTINGS",
+    "SCAN_POLICY",
+    "SCHEMA_VERSION",
+    "Ask",
+    "Candidate",
+    "Change",
+    "ChannelFault",
+    "Finding",
+    "Hazard",
+    "Heard",
+    "Identified",
+    "Place",
+    "Procedure",
+    "Progress",
+    "Report",
+    "Restoration",
+    "Restored",
+    "Result",
+    "Scanned",
+    "Setting",
+    "Snapshot",
+    "Status",
+    "Step",
+    "Tell",
+    "Tune",
+    "Unknown",
+    "Wait",
+    "ask",
+    "diff",
+    "find_setting",
+    "hazard_of",
+    "identify",
+    "places",
+    "read",
+    "restore",
+    "scan",
+    "scan_time",
+    "set_one",
+    "settings_of",
+    "snapshot",
+]
