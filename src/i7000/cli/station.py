@@ -13,6 +13,7 @@ from attrs import define, evolve, fields, frozen
 
 from i7000 import LineSettings, Profile, Protocol, describe
 from i7000.cli.silence import protocol_words
+from i7000.cli.wanted import Wanted
 from i7000.dissect import Fact, Known
 from i7000.dissect.known import fact_words
 from i7000.errors import InvalidValueError
@@ -21,7 +22,7 @@ from i7000.host.procedures import ChannelFault, Identified, Place, Procedure, Re
 from i7000.host.procedures.identified import profile_of
 from i7000.link import Line
 
-__all__ = ["Polled", "Station", "Wanted", "at_words"]
+__all__ = ["Polled", "Station", "at_words", "found_words", "merged"]
 
 _SILENT = "no answer"
 _FEW = 1
@@ -29,25 +30,6 @@ _FEW = 1
 _FIRST_REST = 2.0
 _LONGEST_REST = 60.0
 """Seconds for which a module that does not say what it is is left alone, at first and at most."""
-
-
-@frozen
-class Wanted:
-    """A module to be read: its address, what is given about it, and the protocols to try, in their order."""
-
-    address: int
-    given: Known
-    protocols: tuple[Protocol, ...]
-
-    @property
-    def tried(self) -> tuple[tuple[Protocol, bool], ...]:
-        """The protocols, each with the checksum settings that are tried."""
-        checksums = (False, True) if self.given.checksum is None else (self.given.checksum,)
-        return tuple(
-            (protocol, checksum)
-            for protocol in self.protocols
-            for checksum in (checksums if protocol is Protocol.DCON else (False,))
-        )
 
 
 @frozen
@@ -120,14 +102,14 @@ class Station:
         if not self.answered and wanted.given.model is None:
             return ()
         try:
-            profile = _merged(wanted.given, found)
+            profile = merged(wanted.given, found)
         except InvalidValueError as error:
             return self._not_read(f"what is given does not fit the module: {error}")
         if profile is None:
             return self._not_read(f"{'; '.join(found.reasons)}: give --model")
         self.profile = profile
         self.protocol = wanted.protocols[0] if found.protocol is None else found.protocol
-        return tuple(_found_words(wanted, found, profile, self.protocol)) if self.answered else ()
+        return tuple(found_words(wanted, found, profile, self.protocol)) if self.answered else ()
 
     def _not_read(self, reason: str) -> tuple[str, ...]:
         """Remember why the module is not read; it is said once."""
@@ -157,7 +139,7 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-def _merged(given: Known, found: Identified) -> Profile | None:
+def merged(given: Known, found: Identified) -> Profile | None:
     """Return the profile of a module: what is given, then what it says, then the factory defaults.
 
     Shape: None if neither says which model it is. Without types if neither says them.
@@ -184,7 +166,7 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
     return ((it.name, value) for it in fields(Known) if (value := getattr(known, it.name)) not in (None, ()))
 
 
-def _found_words(wanted: Wanted, found: Identified, profile: Profile, spoken: Protocol) -> Iterator[str]:
+def found_words(wanted: Wanted, found: Identified, profile: Profile, spoken: Protocol) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
     models = " or ".join(candidate.model.value for candidate in found.candidates) or profile.model.value
