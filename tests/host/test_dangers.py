@@ -29,7 +29,12 @@ SLOWER = "response_delay"
 """Dangerous to send, although it is restored as a plain setting: a host may not wait that long."""
 PERMISSIONS = {dcon.SoftInit, dcon.SetSoftInitTimeout}
 """Dangerous because of what they permit."""
-BY_ADDRESS = {modbus.WriteSingleCoil, modbus.WriteSingleRegister, modbus.WriteMultipleCoils, modbus.WriteMultipleRegisters}
+BY_ADDRESS = {
+    modbus.WriteSingleCoil,
+    modbus.WriteSingleRegister,
+    modbus.WriteMultipleCoils,
+    modbus.WriteMultipleRegisters,
+}
 
 
 def commands_with(danger: Danger | None) -> set[Any]:
@@ -72,7 +77,9 @@ def test_a_command_that_changes_calibration_is_dangerous() -> None:
 
 def test_no_other_command_is_dangerous() -> None:
     plain = writers(Hazard.PLAIN) - writers(Hazard.LOSES)
-    harmless = {kind for kind in COMMANDS if kind.__name__.startswith(("Read", "Reset"))} - {dcon.ReloadDefaultCalibration}
+    harmless = {kind for kind in COMMANDS if kind.__name__.startswith(("Read", "Reset"))} - {
+        dcon.ReloadDefaultCalibration
+    }
 
     assert commands_with(None) >= plain | (harmless - commands_with(Danger.CALIBRATION))
 

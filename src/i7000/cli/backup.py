@@ -7,6 +7,7 @@ from cyclopts import Parameter
 from i7000.cli.asked import DEFAULT_ONE, OneModule, asked_of
 from i7000.cli.options import UNKNOWN, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
+from i7000.cli.setting_text import unread_words
 from i7000.cli.snapshot_file import check_new, write_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
@@ -61,8 +62,8 @@ def backup(  # noqa: PLR0913 - each of them is an option
         else:
             write_new(file, taken.to_json())
             printer.note(f"{file} has {len(taken.settings)} settings of {there.words}")
-        for name, reason in taken.unread:
-            printer.error(f"{name} could not be read: {reason}")
+        for words in unread_words(taken.unread):
+            printer.error(words)
         return 1 if taken.unread else 0
 
     return run(asked, save)

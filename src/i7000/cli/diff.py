@@ -10,7 +10,7 @@ from i7000 import Model
 from i7000.cli.asked import DEFAULT_ONE, OneModule, asked_of
 from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions
-from i7000.cli.setting_text import change_record, change_table, names_words
+from i7000.cli.setting_text import change_record, change_table, names_words, unread_words
 from i7000.cli.snapshot_file import read_snapshot
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
@@ -100,8 +100,15 @@ def compare(one: Snapshot, other: Snapshot) -> Compared:
         both,
         tuple((name, reason) for name, reason in unread.items() if name in single),
         tuple(name for name in single if name not in unread),
-        tuple(f"the {name} differs: {first} and {second}" for name, first, second in about if first != second),
+        tuple(
+            f"the {name} differs: {first or _UNKNOWN} and {second or _UNKNOWN}"
+            for name, first, second in about
+            if first != second
+        ),
     )
+
+
+_UNKNOWN = "unknown"
 
 
 def _report(compared: Compared, model: Model, heads: tuple[str, str], printer: Printer) -> int:
@@ -114,8 +121,8 @@ def _report(compared: Compared, model: Model, heads: tuple[str, str], printer: P
         printer.lines(change_table(compared.changes, model, heads))
     if compared.alone:
         printer.note(f"not compared, as only one of them has it: {names_words(compared.alone)}")
-    for name, reason in compared.unread:
-        printer.error(f"{name} could not be read: {reason}")
+    for words in unread_words(compared.unread):
+        printer.error(words)
     if compared.changes or compared.unread:
         return 1
     printer.note("no differences")

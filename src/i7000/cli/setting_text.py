@@ -20,6 +20,7 @@ __all__ = [
     "names_words",
     "restored_lines",
     "restored_record",
+    "unread_words",
     "value_words",
 ]
 
@@ -61,6 +62,19 @@ def names_words(names: Iterable[str]) -> str:
         base, point, channel = name.partition(".")
         channels[base] = (*channels.get(base, ()), *((int(channel),) if point else ()))
     return ", ".join(f"{base}.{','.join(_ranges(them))}" if them else base for base, them in channels.items())
+
+
+def unread_words(unread: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """Yield what could not be read, and why, with the settings of one reason together.
+
+    >>> [*unread_words([("name", "refused"), ("filter", "no answer"), ("protocol", "refused")])]
+    ['name, protocol could not be read: refused', 'filter could not be read: no answer']
+    """
+    by_reason: dict[str, list[str]] = {}
+    for name, reason in unread:
+        by_reason.setdefault(reason, []).append(name)
+    for reason, names in by_reason.items():
+        yield f"{names_words(names)} could not be read: {reason}"
 
 
 def _words(model: Model, name: str, value: Plain | None) -> str:
