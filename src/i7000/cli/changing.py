@@ -108,7 +108,7 @@ class Changes:
         if after.address != there.address:
             words.append(f"address {describe.address(after.address)}")
         if after.line is not None:
-            words.append(describe.line_settings(after.line))
+            words.append(describe.line_settings(after.line).partition(", ")[2])
         if profile.checksum is not there.profile.checksum:
             words.append(f"{'a' if profile.checksum else 'no'} checksum")
         if words:

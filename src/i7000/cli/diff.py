@@ -95,16 +95,15 @@ def compare(one: Snapshot, other: Snapshot) -> Compared:
     changes = differences(one, other)
     both = tuple(it for it in changes if it.before is not None and it.after is not None)
     single = [it.name for it in changes if it.before is None or it.after is None]
-    about = (("model", one.model.value, other.model.value), ("firmware", one.firmware, other.firmware))
+    about = (
+        ("model", one.model.value, other.model.value),
+        ("firmware", one.firmware or _UNKNOWN, other.firmware or _UNKNOWN),
+    )
     return Compared(
         both,
-        tuple((name, reason) for name, reason in unread.items() if name in single),
+        tuple(unread.items()),
         tuple(name for name in single if name not in unread),
-        tuple(
-            f"the {name} differs: {first or _UNKNOWN} and {second or _UNKNOWN}"
-            for name, first, second in about
-            if first != second
-        ),
+        tuple(f"the {name} differs: {first} and {second}" for name, first, second in about if first != second),
     )
 
 

@@ -63,9 +63,7 @@ def set_setting(  # noqa: PLR0913 - each of them is an option
     printer = Printer(json=json)
     pairs = tuple(map(_pair, assignments))
     if listed == bool(pairs):
-        raise UsageError(
-            "give NAME=VALUE, or --list for the names" if not listed else "give --list or NAME=VALUE, not both"
-        )
+        raise UsageError("give either NAME=VALUE, or --list for the names and values")
     risky = [name for name, _ in pairs if hazard_of(name) is Hazard.LOSES]
     if risky:
         check_can_ask(f"{risky[0]} {LOSES}", yes=yes)
@@ -107,7 +105,7 @@ def _wanted(profile: Profile, protocol: Protocol, name: str, text: str) -> Itera
     settings = settings_of(profile, protocol)
     found = [it for it in settings if name in (it.name, it.name.partition(".")[0])]
     if not found:
-        hint = near(name, [it.name for it in settings])
+        hint = near(name, [it.name.partition(".")[0] for it in settings])
         raise UsageError(f"{why_not(name, profile, protocol)}{hint or '; i7000 set TARGET --list has the names'}")
     for setting in found:
         try:
