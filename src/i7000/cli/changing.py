@@ -96,9 +96,7 @@ class Changes:
         self._printer.error(f"{why}: {changed} was changed before")
         if not self._writing:
             return code
-        self._printer.error(
-            f"in doubt: {names_words(self._writing)} was being written, and may have the old value or the new one"
-        )
+        self._printer.error(f"in doubt: {names_words(self._writing)} may have the old value or the new one")
         return LEFT_CHANGED
 
     def _move(self, after: Restoration) -> None:

@@ -9,7 +9,7 @@ from i7000.cli.asked import DEFAULT_ONE, OneModule, Yes, asked_of
 from i7000.cli.confirm import check_can_ask, confirmed
 from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
-from i7000.cli.setting_text import change_table
+from i7000.cli.setting_text import LOSES, change_table
 from i7000.cli.snapshot_file import read_snapshot
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
@@ -71,10 +71,8 @@ def restore(  # noqa: PLR0913 - each of them is an option
     def change(open_line: "OpenLine") -> int:
         there = reach(open_line, asked, printer.note, wanted.model)
         if there.profile.model is not wanted.model and not names:
-            model = there.profile.model.value
-            printer.error(
-                f"{file} is of the {wanted.model.value}, the module is the {model}: name the settings to restore"
-            )
+            models = f"{file} is of {wanted.model.value}, the module is {there.profile.model.value}"
+            printer.error(f"{models}: name the settings to restore")
             return 1
         return _change(there, wanted, chosen, printer, yes=yes)
 
@@ -118,6 +116,4 @@ def _change(there: "Reached", wanted: Snapshot, chosen: frozenset[str], printer:
 def _note_left(changes: list[Change], chosen: frozenset[str], printer: Printer) -> None:
     left = [it.name for it in changes if it.name not in chosen and hazard_of(it.name) is Hazard.LOSES]
     if left:
-        printer.note(
-            f"left as they are, as a wrong value could lose the module: {', '.join(left)}; name them to restore them"
-        )
+        printer.note(f"not restored unless you name it, as it {LOSES}: {', '.join(left)}")
