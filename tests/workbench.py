@@ -26,15 +26,26 @@ EVERY_MODULE = tuple(
 
 
 class _Port(VirtualPort):
-    """A port that calls a function before each write."""
+    """A port that calls a function before each write, and one when the host waits for what comes."""
 
     before_write: Callable[[bytes], object] | None = None
+    before_answer: Callable[[], object] | None = None
 
     def write(self, data: Any) -> int:
         """Send bytes."""
         if self.before_write:
             self.before_write(bytes(data))
+        self._written = True
         return super().write(data)
+
+    def read(self, size: int = 1) -> bytes:
+        """Receive bytes."""
+        if self.before_answer and self._written:
+            self.before_answer()
+        self._written = False
+        return super().read(size)
+
+    _written = False
 
 
 class Workbench:

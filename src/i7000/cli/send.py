@@ -3,6 +3,7 @@
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
+from attrs import evolve
 from cyclopts import Parameter
 
 from i7000 import InvalidValueError, Model, Profile, Protocol, dcon, modbus
@@ -149,7 +150,9 @@ def _profile(
         profile = given_profile(wanted)
         return profile, _spoken(kinds, wanted.protocols, profile)
     if _is_broadcast(kinds):
-        return Profile(Model.I_7017, checksum=bool(wanted.given.checksum)), Protocol.DCON
+        availability = kinds[Protocol.DCON].availability
+        profile = next(it for it in map(Profile, Model) if availability not in it.refused)
+        return evolve(profile, checksum=bool(wanted.given.checksum)), Protocol.DCON
     if wanted.address == modbus.BROADCAST and Protocol.DCON not in kinds:
         raise UsageError("address 0 is a broadcast to all modules: give --model, of which the registers are")
     there = reach(open_line, asked, printer.note)
