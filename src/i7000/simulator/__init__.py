@@ -5,10 +5,10 @@ In a test without an event loop::
     from i7000 import Model
     from i7000.simulator import Faults, simulate
 
-    with simulate(Model.I_7018, faults=Faults(late=0.1)) as running:
-        ...  # give running.url to your driver
-        running.power_cycle()
-        running.faults = Faults()
+    with simulate(Model.I_7018, faults=Faults(late=0.1)) as url:
+        ...  # give url to your driver
+        url.power_cycle()
+        url.faults = Faults()
 
 In an event loop: ``async with listen(Simulator(modules)) as place``. `Host` needs neither port nor network.
 
