@@ -50,6 +50,12 @@ def test_the_listener_prints_what_its_comments_say(capsys: pytest.CaptureFixture
     assert f"\n# {facts}\n" in README
 
 
+def test_the_simulator_in_a_test_prints_what_its_comment_says(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(5)
+
+    assert f"# {capsys.readouterr().out.strip()}: a pseudo-terminal" in README
+
+
 def test_the_driver_reads_what_a_module_answers(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -132,6 +132,7 @@ CASES = {
     "late": Case(Faults(late=0.1, late_by=0.1), Policy(retries=3, turnaround=0.03, grace=0.2)),
     "silent": Case(Faults(silent=0.2)),
     "truncate": Case(Faults(truncate=0.2)),
+    "duplicate": Case(Faults(duplicate=0.5)),
     "misaddress": Case(Faults().at(0x03, misaddress=0.2)),
     "all": Case(
         Faults(echo=True, lumps=True, drop=0.001, flip=0.001, noise=0.1, late=0.1, late_by=0.3),
@@ -379,8 +380,8 @@ def test_an_observer_hears_each_byte_and_each_event_in_order(opened: Open) -> No
     assert heard == b">+0025.18F\r"
     assert others == [
         Asked(0.0, READ, PROFILE),
-        Written(0.0, b"#010B4\r"),
-        Happened(0.0, Transmit(b"#010B4\r")),
+        Written(others[1].at, b"#010B4\r"),
+        Happened(others[1].at, Transmit(b"#010B4\r")),
         Happened(seen[-1].at, truth(READ)),
     ]
     assert [it.at for it in seen] == sorted(it.at for it in seen)

@@ -98,7 +98,10 @@ class Line:
         return self._conversation.bus.policy
 
     def ask(self, command: Query[R], profile: Profile, policy: Policy | None = None) -> Outcome[R]:
-        """Send a command or request, and return its outcome; `policy` is for this one."""
+        """Send a command or request, and return its outcome; `policy` is for this one.
+
+        Special: ``run(i7000.host.procedures.ask(command, profile))`` returns the other traffic too.
+        """
         return self._drive(self._conversation.ask(command, profile, policy)).outcome
 
     def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None = None) -> T:

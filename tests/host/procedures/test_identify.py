@@ -266,7 +266,7 @@ def test_the_name_of_another_product_has_no_candidates() -> None:
 
     assert found.candidates == ()
     assert (found.model, found.profile) == (None, None)
-    assert unknown(found)["model"] == "7050D is the name of another product"
+    assert unknown(found)["model"] == unknown(found)["types"] == "7050D is the name of another product"
     assert found.name == "7050D"
     assert len(commands(steps)) == 4
 

@@ -209,6 +209,15 @@ def test_what_is_found_on_a_bad_line_is_there(eeproms: list[Eeprom], bad: Faults
     assert scanned.total <= len(runner.asked) <= 2 * scanned.total
 
 
+def test_a_module_in_init_mode_is_found_whatever_its_settings_are() -> None:
+    eeprom = evolve(factory(Model.M_7019R), address=0x23, line_settings=FAST)
+    runner = Runner.on(eeprom, init_switch=True)
+
+    scanned = runner.run(scan([FACTORY], [0x01]))
+
+    assert [(it.place, it.name) for it in scanned.devices] == [(Place(FACTORY, 0x00), "7019R")]
+
+
 def test_where_a_module_answers_the_other_checksum_setting_is_not_tried() -> None:
     runner = Runner.on(factory(Model.I_7018))
 

@@ -56,7 +56,8 @@ def identify(
         not have. `checksum` is the setting for DCON; None tries both. `policy` is that of every request; None means the
         policy of the line. Before that, each way is tried once with a short one.
     Special: the firmware of a module does not say whether it is an I- or an M-model. By DCON, an I-model may not answer
-        what only M-models have, so that both remain candidates. Without a checksum, a flipped bit can change an answer.
+        what only M-models have, so that both remain candidates. Without a checksum, a
+        damaged answer can look like another one; `confirmed` asks everything twice.
     Errors: `EncodeError` for an address that none of the protocols has.
     Manual: 1.12, 2, 3; E75, E77, E81.
 

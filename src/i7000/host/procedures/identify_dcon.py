@@ -195,7 +195,7 @@ def _types(
 ) -> Procedure[tuple[Known, tuple[Unknown, ...]]]:
     """Make the procedure that reads the types: from the configuration if it has that of all channels."""
     if not evidence.models:
-        return known, ()
+        return known, (Unknown("types", evidence.reasons[-1]),)
     profile = _untyped(known, evidence.models[0])
     code = None if configuration is None else TypeCode.of(configuration.type_code)
     if isinstance(code, TypeCode) and profile.model.type_by_configuration:
