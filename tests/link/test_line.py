@@ -380,7 +380,7 @@ def test_an_observer_hears_each_byte_and_each_event_in_order(opened: Open) -> No
     assert others == [
         Asked(0.0, READ, PROFILE),
         Written(0.00175, b"#010B4\r"),
-        Happened(0.0, Transmit(b"#010B4\r")),
+        Happened(0.00175, Transmit(b"#010B4\r")),
         Happened(seen[-1].at, truth(READ)),
     ]
     assert [it.at for it in seen] == sorted(it.at for it in seen)
