@@ -12,6 +12,7 @@ from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
+from i7000.cli.proxy import proxy
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -29,7 +30,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, listen, simulate):
+for _command in (decode, encode, commands, registers, errata, listen, simulate, proxy):
     app.command(_command)
 
 
@@ -51,7 +52,7 @@ def run(arguments: Sequence[str] | None) -> int:
     except (CycloptsError, UsageError, OSError) as error:
         with suppress(OSError, SystemExit):  # The terminal may be gone.
             Printer().error(_words(error))
-        return getattr(error, "code", 2)
+        return error.code if isinstance(error, UsageError) else 2
     except ModuleNotFoundError as missing:
         extra = "simulator" if missing.name in _OF_THE_SIMULATOR else "cli"
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[{extra}]"')

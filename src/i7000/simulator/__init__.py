@@ -15,7 +15,8 @@ In an event loop: ``async with listen(Simulator(modules)) as place``. `Host` nee
 Parts: `simulator` is the bus and its hosts, `threaded` runs one in a thread. `sources` are the input signals,
 `recordings` the same from CSV files. `faults` are the faults of the line, `foreign` finds frames of the wrong protocol,
 `changes` puts changes of modules in words. `memory` keeps the EEPROMs in a file, and `files` opens files safely.
-`pseudo_terminal`, `tcp` and `rfc2217` (with `telnet`) connect hosts to the bus, or to another line (`served`).
+`pseudo_terminal`, `tcp` and `rfc2217` (with `telnet`) connect hosts to the bus, or to another line (`served`):
+`proxy` is one in front of a real port (`target`). `deliveries` has the responses on their way.
 Laws: time, randomness and I/O are here; the behaviour of modules is in `i7000.device`. The names below are imported
 when they are first used, since networks take time to import.
 """
