@@ -17,7 +17,10 @@ import pytest
 import serial
 
 from i7000 import Model
+from i7000.cli import proxying
+from i7000.cli.outlet import Outlet
 from i7000.cli.proxying import carried_line
+from i7000.cli.text import Printer
 from i7000.recording.records import Carried
 from i7000.simulator import Simulated, default_sources, simulate
 from tests.simulation import MAIN, free_port, process, talk
@@ -139,6 +142,35 @@ def test_a_signal_ends_it(run: Run, tmp_path: Path, number: signal.Signals, code
         )  # fmt: skip
 
     assert (told.code, told.err) == (code, "")
+
+
+def test_it_needs_no_control(run: Run) -> None:
+    port = free_port()
+
+    def talk_and_end() -> None:
+        heard.extend(talk(f"socket://127.0.0.1:{port}", b"$01M\r"))
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    heard: list[bytes] = []
+    ending = Thread(target=talk_and_end)
+    with simulate(I_7018, over="socket") as url:
+        ending.start()
+        told = run("proxy", url, "--tcp", str(port))
+        ending.join()
+
+    assert (told.code, heard) == (0, [b"!017018\r"])
+
+
+def test_lines_that_nobody_reads_are_dropped() -> None:
+    class Unread(Outlet):
+        def skip(self, lines: int) -> bool:  # noqa: ARG002
+            return True
+
+    out = Unread(io.StringIO())
+    try:
+        assert proxying._show(Printer(), out, Carried(0.1, b"#01\r")) is None  # type: ignore[func-returns-value] # noqa: SLF001
+    finally:
+        out.close()
 
 
 def test_commands_come_from_standard_input_too(run: Run) -> None:
