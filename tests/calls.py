@@ -28,16 +28,20 @@ from i7000 import (
     host,
     modbus,
 )
+from i7000.host import procedures
 from i7000.message import Message
 from i7000.models import CONFIGURABLE
 from tests.spec.lint import vectors
 from tests.vectors import MESSAGES, MODBUS_MESSAGES, message_of
 
-MODULES = {"i7000": i7000, "dcon": dcon, "modbus": modbus, "host": host, "device": device, "dissect": dissect}
+MODULES = {
+    "i7000": i7000, "dcon": dcon, "modbus": modbus, "host": host, "procedures": procedures, "device": device,
+    "dissect": dissect,
+}  # fmt: skip
 
 BASES = (
     dcon.Broadcast, dcon.Command, dcon.Message, dcon.Response, modbus.Message, modbus.Request, modbus.Response,
-    modbus.SettingResult,
+    modbus.SettingResult, host.Query, host.Response,
 )  # fmt: skip
 """The base classes of messages, which cannot be constructed."""
 
@@ -65,6 +69,12 @@ def surface() -> Iterator[str]:
                 yield f"{module}.{name}"
             elif isinstance(value, type):
                 yield from _members(f"{module}.{name}", value)
+
+
+def kind_of(name: str) -> Any:
+    """The class or function that a public name begins with."""
+    module, kind, *_ = name.split(".")
+    return getattr(MODULES[module], kind)
 
 
 # --- sound calls ------------------------------------------------------------------------------------------------------
@@ -140,7 +150,8 @@ _MODULES = device.Bus((_MODULE,))
 _SIGNALS = device.Signals()
 _UART = device.Uart()
 _BUS = host.Bus[Any]()
-_OPEN, _ = host.send(_BUS, _READ, _I7018, 1.0)
+_SCANNED = ((i7000.LineSettings(),), (0x01,), (i7000.Protocol.DCON,), (False,))
+_OPEN = host.send(_BUS, _READ, _I7018, 1.0)
 
 _EEPROM = device.factory(Model.M_7019R)
 _FACT = dissect.Fact("types", (TypeCode.K,))
@@ -229,12 +240,21 @@ CALLS = (
     call("host.next_deadline", _OPEN),
     call("host.receive", _OPEN, b">+1.0000\r", 1.1),
     call("host.send", _BUS, _READ, _I7018, 1.0),
-    call("host.wake", _OPEN, 1.1),
+    call("host.abandon", _OPEN, 1.1),
+    call("procedures.Ask", _READ, _I7018, None),
+    call("procedures.Tune", i7000.LineSettings()),
+    call("procedures.Wait", 1.0),
+    call("procedures.ask", _READ, _I7018, None),
+    call("procedures.identify", 0x01, protocols=(i7000.Protocol.DCON,), checksum=False, policy=host.Policy()),
+    call("procedures.places", *_SCANNED),
+    call("procedures.read", 0x01, _I7018, protocol=i7000.Protocol.DCON, mask=0xFF, policy=host.Policy()),
+    call("procedures.scan", *_SCANNED, policy=host.Policy()),
+    call("procedures.scan_time", *_SCANNED, policy=host.Policy()),
     call("device.Bus", (_MODULE,), clock=1.0),
     call("device.Bus.step", b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.hear", device.Ear(), b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.silence", device.Ear(), (_SIGNALS,), 1.0, on=_MODULES),
-    call("device.Ear", _UART, rests=(), told=False),
+    call("device.Ear", _UART, rests=(), dcon_reported=False),
     call("device.Ear.ends_with", b"#010\r", on=device.Ear()),
     call("device.Eeprom", **_fields_of(_EEPROM)),
     call("device.Eeprom.check_types", Profile(Model.M_7019R), on=_EEPROM),
@@ -289,14 +309,18 @@ LEFT_OUT = {
             "i7000.ArgumentError", "i7000.DecodeError", "i7000.EncodeError", "i7000.I7000Error",
             "i7000.InvalidValueError", "i7000.StateError", "i7000.Noise", "modbus.Plan", "modbus.Register",
             "modbus.LogRecord", "host.Answered", "host.Declined", "host.Late", "host.Rejected", "host.Sent",
-            "host.TimedOut", "host.Transmit", "device.Heard", "device.Record", "dissect.ChannelReading",
+            "host.TimedOut", "host.Transmit", "procedures.Result", "procedures.Tell",
+            "procedures.Candidate", "procedures.ChannelFault", "procedures.Finding", "procedures.Identified",
+            "procedures.Place", "procedures.Progress", "procedures.Report", "procedures.Scanned", "procedures.Unknown",
+            "device.Heard", "device.Record", "dissect.ChannelReading",
             "dissect.Field", "dissect.Fit", "dissect.Found", "dissect.Heard", "dissect.Item",
             "dissect.Meaning", "dissect.Piece", "dissect.Place",
         ),
         _HANDED_OUT,
     ),
     "host.Ended": _BASE,
-    **{f"{kind.__module__.split('.')[1]}.{kind.__name__}.describe": _BASE for kind in BASES},
+    "procedures.confirmed": "takes a procedure, which can be run only once",
+    **{name: _BASE for name in surface() if name.endswith(".describe") and kind_of(name) in BASES},
     "modbus.Register.describe": "describes what `RegisterMap.decode` gave",
     **dict.fromkeys(
         [name for name in surface() if name.endswith((".check", ".reserved_bits"))],
@@ -310,6 +334,5 @@ LEFT_OUT = {
 
 def is_message(name: str) -> bool:
     """Whether a name is that of a message class."""
-    module, kind, *_ = name.split(".")
-    value = getattr(MODULES[module], kind)
+    value = kind_of(name)
     return isinstance(value, type) and issubclass(value, Message)

@@ -1,6 +1,6 @@
 """Arguments of the wrong type are refused in one way everywhere, and bytes-like ones are taken as bytes."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from inspect import signature
 from typing import Any
 
@@ -60,6 +60,8 @@ def test_a_sound_call_is_carried_out(call: Call) -> None:
 
 def alike(one: Any, other: Any) -> bool:
     """Whether two calls gave the same; what is compared by identity is compared by all that it has."""
+    if isinstance(one, Generator):  # a procedure, which needs to be sent something after its first step
+        return bool(next(one) == next(other))
     if isinstance(one, Iterator):
         return list(one) == list(other)
     return bool(one == other) or repr(one) == repr(other)
@@ -121,7 +123,7 @@ def test_a_memoryview_that_was_released_is_refused() -> None:
     view = memoryview(b"$012\r")
     view.release()
 
-    with pytest.raises(ArgumentError, match=r"frame cannot be .*: bytes, bytearray or memoryview, not released"):
+    with pytest.raises(ArgumentError, match="frame is a memoryview that was released: bytes"):
         meanings(view)  # type: ignore[arg-type]
 
 
@@ -129,14 +131,14 @@ def test_an_error_names_the_argument_what_was_given_and_what_is_allowed() -> Non
     with pytest.raises(ArgumentError) as caught:
         meanings("$012\r")  # type: ignore[arg-type]
 
-    assert str(caught.value) == r"frame cannot be '$012\r' (str): bytes, bytearray or memoryview"
+    assert str(caught.value) == r"frame must be bytes, bytearray or memoryview, not '$012\r' (str)"
     assert (caught.value.argument, caught.value.value) == ("frame", "$012\r")
     assert caught.value.allowed == "bytes, bytearray or memoryview"
     assert isinstance(caught.value, TypeError)
 
 
 def test_an_optional_argument_accepts_none() -> None:
-    with pytest.raises(ArgumentError, match=r"profile cannot be 5 .*: Profile or None"):
+    with pytest.raises(ArgumentError, match=r"profile must be Profile or None, not 5 \(int\)"):
         modbus.flush(b"", profile=5)  # type: ignore[arg-type]
 
     assert modbus.flush(b"", profile=None) == ()
@@ -149,7 +151,7 @@ def test_a_base_class_of_messages_cannot_be_constructed(base: Any) -> None:
     with pytest.raises(ArgumentError, match=f"{base.__name__} is a base class: construct one of the ") as caught:
         base(*arguments)
 
-    module = dcon if issubclass(base, dcon.Message) else modbus
+    module = dcon if issubclass(base, dcon.Message) else modbus  # one of them for the bases of both
     instead = getattr(module, caught.value.allowed.rpartition(" ")[2])
     assert issubclass(instead, base)
     assert instead.section
@@ -163,12 +165,12 @@ class Unwritable:
 
 
 def test_a_value_that_cannot_be_written_is_refused_all_the_same() -> None:
-    with pytest.raises(ArgumentError, match=r"frame cannot be a value of Unwritable whose repr\(\) fails"):
+    with pytest.raises(ArgumentError, match=r"not a value of Unwritable whose repr\(\) fails"):
         meanings(Unwritable())  # type: ignore[arg-type]
 
 
 def test_a_text_in_place_of_a_reading_is_named_in_the_error() -> None:
-    with pytest.raises(ArgumentError, match=r"values cannot be 'text' \(str\): Reading"):
+    with pytest.raises(ArgumentError, match=r"values must be Reading, not 'text' \(str\)"):
         dcon.fields(["text"] * 8, Profile(Model.I_7018))  # type: ignore[list-item]
 
 
@@ -196,12 +198,12 @@ PROFILE = Profile(Model.I_7018)
 READ = dcon.ReadAnalogInput(0x01, 0)
 MODULE = device.power_on(device.factory(Model.I_7018), now=5.0)
 BUS = device.Bus((MODULE,)).step(b"", (device.Signals(),), 5.0)[0]
-OPEN, _ = host.send(host.Bus[Any](), READ, PROFILE, 5.0)
+OPEN = host.send(host.Bus[Any](), READ, PROFILE, 5.0)
 SIGNALS = device.Signals()
 CLOCKS: dict[str, Callable[[float], Any]] = {
-    "host.send": lambda now: host.send(host.wake(OPEN, 5.0)[0], READ, PROFILE, now),
+    "host.send": lambda now: host.send(host.receive(OPEN, b"", 5.0)[0], READ, PROFILE, now),
     "host.receive": lambda now: host.receive(OPEN, b">", now),
-    "host.wake": lambda now: host.wake(OPEN, now),
+    "host.abandon": lambda now: host.abandon(OPEN, now),
     "device.step": lambda now: device.step(MODULE, b"$012\r", SIGNALS, now),
     "device.advance": lambda now: device.advance(MODULE, SIGNALS, now),
     "device.Bus.step": lambda now: BUS.step(b"$012\r", (SIGNALS,), now),
@@ -245,7 +247,7 @@ def test_no_module_gets_power_at_a_time_that_is_not_finite(now: float) -> None:
 
 
 def test_the_clock_of_a_line_goes_on_with_every_call() -> None:
-    bus, _ = host.wake(host.Bus[Any](), 7.0)
+    bus, _ = host.receive(host.Bus[Any](), b"", 7.0)
 
     with pytest.raises(StateError):
         host.send(bus, READ, PROFILE, 6.0)

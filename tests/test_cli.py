@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from i7000 import dcon
-from i7000.cli import main
+from i7000.cli import app, main
 from i7000.cli.message import DCON, encode, find, make
 from i7000.dissect.meaning import errata
 from i7000_cli import CLOSED
@@ -106,7 +106,7 @@ def test_a_frame_is_written_as_json(run: Run) -> None:
     [
         ("ReadAnalogInput address=1 channel=12 --model I-7018", "channel cannot be 12: 0..7 on I-7018, manual 2.4"),
         ("ReadAnalogInput address=1 channel=17", "no model accepts it: channel cannot be 17: "),
-        ("ReadAnalogInput address=300 channel=1", "address cannot be 300: 00..FF, manual 2.4"),
+        ("ReadAnalogInput address=300 channel=1", "address cannot be 300: 0..255 or 00h..FFh, manual 2.4"),
         ("ReadCjcUpdate address=1 --model I-7018", "I-7018 has no CJC update setting: 7019 series only, manual 2.20"),
         ("SetChannelMask address=1 channels=25 --model I-7018", "channel cannot be 25: 0..19, manual 2.13"),
         ("SetChannelMask address=1 channels=0-99999999 --model I-7018", "channel cannot be 99999999: 0..19"),
@@ -133,7 +133,7 @@ def test_a_frame_that_a_module_refuses_is_not_written(run: Run, arguments: str, 
         ("ReadConfiguration 1", "'1' is not field=value; the fields of ReadConfiguration are address\n"),
         ("$012", "there is no command or response '$012'; that is a frame, and i7000 decode reads it\n"),
         ("SetChannelMask address=1 channels=5-2 --model I-7018", "channels: 5-2 has no channel: write 2-5\n"),
-        ("SetChannelMask address=1 channels=3- --model I-7018", "channels: '' is not a number"),
+        ("SetChannelMask address=1 channels=3- --model I-7018", "channels: '' is not a whole number"),
         ("ReadConfiguration address=1 address=2", "address is given twice"),
         (
             "ReadConfiguration address=1 adress=2",
@@ -144,11 +144,12 @@ def test_a_frame_that_a_module_refuses_is_not_written(run: Run, arguments: str, 
             "ReadConfiguration has no field 'fast_mode'; its fields are address\n",
         ),
         ("ReadConfiguration address=1F", "address: '1F' has hex digits: write 0x1F or 1Fh"),
-        ("ReadConfiguration address=", "address: '' is not a number"),
+        ("ReadConfiguration address=", "address: '' is not a whole number"),
         ("SetChannelMask address=1 mask=1 channels=1 --model I-7018", "mask and channels mean the same"),
-        ("SetChannelMask address=1 channels=x --model I-7018", "channels: 'x' is not a number"),
+        ("SetChannelMask address=1 channels=x --model I-7018", "channels: 'x' is not a whole number"),
         ("SetChannelMask address=1 channels=1,3,4,5", "give --model: $0153A for all but I-7017Z, "),
         ("SetChannelTypeCode address=1 channel=2 type_code=KK", "type_code: 'KK' is not a type: "),
+        ("SetProtocol address=1 protocol=dkon", "protocol: 'dkon' is not one of dcon, rtu; did you mean dcon?\n"),
         ("SetCjcUpdate address=1 update=never", "update: 'never' is not one of stopped, started, once, 0, 1, 2"),
         ("SetCjcEnabled address=1 enabled=maybe", "enabled: 'maybe' is not true or false: give one of true, yes, "),
         (f"{SET} line_settings=106h", "line_settings: '106h' is not a byte: 00h..FFh"),
@@ -226,17 +227,17 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode --file nowhere.log", "nowhere.log"),
         ("decode --file .", "i7000: .: Is a directory\n"),
         ("decode $012 --file x", "give either frames, or --file or --raw"),
-        ("decode $012 --model I-7020", "--model cannot be I-7020: I-7017, "),
-        ("decode $012 --model=", "--model cannot be empty"),
+        ("decode $012 --model I-7020", "there is no model 'I-7020'; did you mean I-7018, I-7017 or I-7019R?"),
+        ("decode $012 --model=", "there is no model '': I-7017, I-7017F, "),
         ("decode $012 --firmware new", "--firmware cannot be new"),
         ("decode $012 --type Q", "'Q' is not a type"),
-        ("decode $012 --type 20", "type 20 of '20' is not defined: 00..1C"),
-        ("decode $012 --type MIXED,K", "type FF of 'MIXED,K' is not defined"),
+        ("decode $012 --type 20", "--type: type 20 is not defined: types are 00..1C"),
+        ("decode $012 --type MIXED,K", "--type: type FF is not defined"),
         ("decode $012 --type K --model I-7017", "--type cannot be K: "),
         ("decode $012 --type K,K,K", "type codes, or none"),
         ("decode $012 --type K,J,K --model I-7019R", "8 type codes"),
         ("decode $012 --single-ended --model I-7018", "--single-ended cannot be given"),
-        ("commands --model x", "--model cannot be x"),
+        ("commands --model x", "there is no model 'x': I-7017, "),
     ],
 )
 def test_wrong_usage_is_reported(run: Run, arguments: str, message: str) -> None:
@@ -281,6 +282,27 @@ def test_the_extra_is_named_if_it_is_not_installed(
 
     assert main(["decode", "$012"]) == 2
     assert 'pip install "i7000[cli]"' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("missing", "extra"), [("filelock", "simulator"), ("cattrs", "simulator"), ("rich", "cli")])
+def test_a_module_that_is_not_installed_is_reported_with_its_extra(
+    missing: str, extra: str, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def end(*_: object, **__: object) -> None:
+        raise ModuleNotFoundError(name=missing)
+
+    monkeypatch.setattr(app, "app", end)
+    result = run("simulate", "--eeprom", "modules.json")
+
+    assert result.err == f'i7000: no module {missing}; this needs: pip install "i7000[{extra}]"\n'
+    assert result.code == 2
+
+
+def test_an_argument_too_many_is_refused_with_what_may_be_meant(run: Run) -> None:
+    result = run("commands", "46", "2A")
+
+    assert result.err == "i7000: unexpected argument '2A': put what has blanks in quotes\n"
+    assert result.code == 2
 
 
 @pytest.mark.parametrize("command", ["", "decode", "encode", "commands"])

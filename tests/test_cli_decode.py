@@ -363,6 +363,14 @@ def test_fields_are_shown_in_words(run: Run, frames: list[str], words: str) -> N
     assert result.code == 0
 
 
+def test_a_type_that_the_reading_contradicts_is_not_asked_for(run: Run) -> None:
+    result = run("decode", "--model", "I-7017", "$012", "!01080600", "#010", ">+0152.4")
+
+    assert "type            unknown: not the one that line 2 said\n" in result.out
+    assert "--type" not in result.out
+    assert result.code == 1
+
+
 def test_models_are_shown_if_they_are_not_known(run: Run) -> None:
     assert "models  " in run("decode", "$012").out
     assert "models  " not in run("decode", "$012", "--model", "I-7018").out
@@ -491,6 +499,7 @@ REPORT_K = ">" + "+0025.1" * 8
         (["%01010F0640", "!01", "$012B7", "!010F0640C2"], 0, ""),
         (["$01M", "!017018", "~01O7019R", "!01", "$01M", "!017019R"], 0, ""),
         (["07 06 01 E4 01 01 08 37"] * 2, 0, ""),
+        (["--address", "1A", "$012"], 2, "i7000: --address 1A: '1A' has hex digits: write 0x1A or 1Ah\n"),
         (["--address", "256", "$012"], 2, "i7000: --address 256: an address is 0..255 or 00h..FFh\n"),
         (["--address", "3", "$012"], 0, "i7000: no frame of this address\n"),
     ],
@@ -534,4 +543,6 @@ def test_colours_around_a_frame_are_no_part_of_it() -> None:
 def test_a_broadcast_that_sets_something_is_noted() -> None:
     (record,) = logged(seal(bytes.fromhex("0005010CFF00")).hex())
 
-    assert record["notes"] == ["a broadcast: no module confirms it, so whether its settings hold is unknown"]
+    assert record["notes"] == [
+        "a broadcast, which no module confirms: taken to hold from here on for all that have the register (E94)"
+    ]

@@ -300,6 +300,22 @@ def test_what_is_assumed_of_readings_is_reported() -> None:
     assert record["assumed"] == ["type", "modbus_format"]
 
 
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--model", "M-7019R", "--type", "K"], "modbus format as the broadcast of line 1 set"),
+        (["--model", "M-7019R"], "the factory default of type\n{}modbus format as the broadcast of line 1 set"),
+    ],
+)
+def test_what_a_broadcast_set_is_shown_as_assumed(run: Run, options: list[str], words: str) -> None:
+    frames = (modbus.seal(bytes.fromhex(body)) for body in ("0005010CFF00", "010400000001", "01040200FA"))
+    result = run("decode", *options, *(frame.hex(" ") for frame in frames))
+
+    label = f"{'':5}  {'assumed':<15} "
+    assert label + words.format(label) + "\n" in result.out
+    assert result.code == 0
+
+
 def test_a_word_of_a_channel_that_is_not_there_is_no_reading() -> None:
     _, record = told("0104000A0001", "01040200FA", model=Model.M_7017Z)
 

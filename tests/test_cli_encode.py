@@ -72,7 +72,7 @@ def test_the_offset_of_a_channel_has_other_counts_than_that_of_the_module(run: R
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        ("SetCjcOffset offset=0.005", 2, "offset: 0.005 is between two counts: steps of 0.01 degC"),
+        ("SetCjcOffset offset=0.005", 2, "offset: 0.005 is not a multiple of 0.01 degC"),
         (
             "SetCjcOffset offset=1mV",
             2,
@@ -82,7 +82,11 @@ def test_the_offset_of_a_channel_has_other_counts_than_that_of_the_module(run: R
         ("SetCjcOffset offset=", 2, "offset: '' is not a value in degC"),
         ("SetCjcOffset offset=50", 1, "offset cannot be 50: -4096..+4096 counts of 0.01 degC, manual 2.18"),
         ("SetSoftInitTimeout timeout=61", 1, "timeout cannot be 61: 0..60 s, manual 2.34\n"),
-        ("SetHostWatchdogTimeout enabled=1 timeout=30s", 1, "timeout cannot be 30s: 00..FF, counts of 0.1 s, manual "),
+        (
+            "SetHostWatchdogTimeout enabled=1 timeout=30s",
+            1,
+            "timeout cannot be 30s: 0..25.5 s in steps of 0.1, manual ",
+        ),
         ("SetCjcOffset channel=81h offset=13 --protocol rtu", 2, "offset: 13 is not within -12.8..12.7 degC"),
         ("SetCjcOffset channel=81h offset=0x8000 --protocol rtu", 1, "offset cannot be 0x8000: -32768..32767, counts "),
     ],
@@ -182,30 +186,31 @@ def test_the_values_of_a_row_have_their_words(run: Run) -> None:
     ("arguments", "message"),
     [
         ("WriteSingleRegister register=40489 value=1",
-         "register: 40489 is the number of host_watchdog_timeout in the manual; its address in frames is register=488"),
+         "register: 40489 is the number of host_watchdog_timeout; its address in frames is register=488"),
         ("WriteSingleRegister register=40258 value=K",
-         "register: 40258 is the number of type_code in the manual; its address in frames is register=257\n"),
+         "register: 40258 is the number of type_code; its address in frames is register=257\n"),
         ("ReadInputRegisters start=30001 count=8",
-         "start: 30001 is the number of analog_input in the manual; its address in frames is start=0"),
+         "start: 30001 is the number of analog_input; its address in frames is start=0"),
         ("ReadHoldingRegisters start=30001 count=8",
-         "start: 30001 is the number of analog_input in the manual, an input register with the address 0; Read"),
-        ("ReadHoldingRegisters start=49000 count=8", "start: 49000 is a number of the manual; its address in "),
+         "start: 30001 is the number of analog_input at address 0 of the input registers; Read"),
+        ("ReadHoldingRegisters start=400489 count=1", "400489 is the number of host_watchdog_timeout; its address in "),
+        ("ReadHoldingRegisters start=49000 count=8", "start: 49000 is the number of a holding register; its address "),
         ("WriteSingleCoil coil=00257 value=dcon", "coil=256 or coil=protocol"),
         ("WriteSingleCoil coil=host_watchdog_timeout value=1",
          "coil: host_watchdog_timeout of M-7019R is a holding register, not a coil"),
         ("WriteSingleRegister register=protocol value=1", "register: protocol of M-7019R is a coil, not a holding "),
         ("ReadCoils start=analog_input", "analog_input of M-7019R is an input register, not a coil"),
-        ("WriteSingleRegister register=wachdog value=1", "register: M-7019R has no holding register 'wachdog': "),
+        ("WriteSingleRegister register=wachdog value=1", "register 'wachdog'; did you mean host_watchdog_timeout?\n"),
         ("WriteSingleRegister register=host_watchdog value=1", "; did you mean host_watchdog_timeout or "),
         ("WriteSingleRegister register=1E8 value=1", "'1E8' has hex digits: write 0x1E8 or 1E8h"),
         ("WriteSingleRegister register=line_settings value=86", "line_settings: '86' can be hex or decimal"),
-        ("WriteSingleRegister register=response_delay value=1.5", "response_delay: 1.5 is between two counts: steps "),
+        ("WriteSingleRegister register=response_delay value=1.5", "response_delay: 1.5 is not a multiple of 1 ms"),
         ("WriteSingleRegister register=channel_mask value=1A", "channel_mask: '1A' has hex digits"),
-        ("WriteSingleRegister register=channel_mask value=1.5", "channel_mask: 1.5 is between two counts: steps of 1"),
+        ("WriteSingleRegister register=channel_mask value=1.5", "channel_mask: 1.5 is not a multiple of 1\n"),
         ("WriteSingleRegister register=488", "WriteSingleRegister needs value=... (0..65535)"),
         ("WriteSingleRegister value=1", "WriteSingleRegister needs register=... (0..65535)"),
         ("ReadHoldingRegisters start=480", "ReadHoldingRegisters needs count=... (1..125)"),
-        ("WriteSingleRegister register=488 value=1,2", "value: 2 registers are written here: WriteMultipleRegisters "),
+        ("WriteSingleRegister register=488 value=1,2", "value: WriteSingleRegister writes one, and this is 2: use "),
     ],
 )  # fmt: skip
 def test_what_cannot_be_a_register_is_refused_with_what_can(run: Run, arguments: str, message: str) -> None:
@@ -224,6 +229,8 @@ def test_what_cannot_be_a_register_is_refused_with_what_can(run: Run, arguments:
         ("ReadHoldingRegisters start=600 count=9999", "M-7019R has no holding register at address 600"),
         ("WriteSingleRegister register=firmware_version value=1",
          "firmware_version cannot be written: it can only be read\n"),
+        ("ReadHoldingRegisters start=65536 count=1", "start cannot be 65536: 0..65535, manual 3.4\n"),
+        ("ReadHoldingRegisters start=9999 count=1", "M-7019R has no holding register at address 9999: i7000 registers"),
         ("ReadCoils start=271 count=1", "load_factory_calibration cannot be read: it can only be written\n"),
         ("ReadCoils start=load_factory_calibration", "load_factory_calibration"),
         ("WriteSingleRegister register=488 value=30",
@@ -243,7 +250,7 @@ def test_what_the_model_does_not_take_is_refused(run: Run, arguments: str, messa
 def test_a_word_of_a_longer_number_cannot_be_written_alone(run: Run) -> None:
     arguments = "WriteSingleRegister address=1 register=16 value=1 --protocol rtu --model M-7017mC-16"
 
-    assert "WriteMultipleRegisters does that" in run("encode", *arguments.split()).err
+    assert "use WriteMultipleRegisters" in run("encode", *arguments.split()).err
 
 
 def test_names_of_registers_need_a_model(run: Run) -> None:

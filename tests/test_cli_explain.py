@@ -106,14 +106,19 @@ def test_what_means_many_commands_lists_them(run: Run, name: str, count: int) ->
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("ReadConfig", "a function such as 46 2A, or a section such as 2.10; did you mean ReadConfiguration?\n"),
+        ("ReadConfig", "there is no command 'ReadConfig'; did you mean ReadConfiguration?\n"),
         ("ReadConfigurtion", "did you mean ReadConfiguration"),
         ("$AA8", "did you mean $AA8Ci?\n"),
-        ("2.99", "there is no command '2.99': give a name, a syntax such as $AA2, a function such as "),
+        ("2.99 --protocol dcon", "there is no command in section 2.99: those of DCON are 2.1 to 2.43\n"),
+        ("9.9", "there is no command in section 9.9: those of DCON are 2.1 to 2.43, those of Modbus are 3.1 to 3.4\n"),
+        ("xyzzy", "there is no command 'xyzzy': give a name, a syntax such as $AA2, a function such as 46 2A, or"),
+        ("setcjc", "'setcjc'; did you mean SetCjcOffset, SetCjcUpdate or SetCjcEnabled?\n"),
         ("47", "there is no command '47'"),
-        ("Set", "there is no command 'Set': give a name, a syntax such as $AA2, a function such as "),
-        ("ReadCoils --protocol dcon", "there is no command 'ReadCoils'"),
-        ("ReadCjcUpdate --model I-7018", "I-7018 has no ReadCjcUpdate\n"),
+        ("Set", "there is no command 'Set'; did you mean SetTypeCode, "),
+        ("ReadCoils --protocol dcon", "ReadCoils is a Modbus command: use --protocol rtu\n"),
+        ("ReadCoils --model I-7018", "I-7018 has no ReadCoils: M-7000 series only; M-7017 series and "),
+        ("$AA2 --protocol rtu", "$AA2 is a DCON command: use --protocol dcon\n"),
+        ("ReadCjcUpdate --model I-7018", "has no ReadCjcUpdate: 7019 series only, in Modbus M-7019 series only\n"),
     ],
 )  # fmt: skip
 def test_a_command_that_there_is_not_is_refused_with_what_is_near(run: Run, arguments: str, message: str) -> None:
@@ -239,10 +244,14 @@ def test_an_explained_register_has_labelled_lines(run: Run, arguments: str, line
     ("arguments", "message"),
     [
         ("foo", "there is no register 'foo': give a name, a number such as 40489, or an address such as 488\n"),
-        ("watchdog", "did you mean host_watchdog_enabled or host_watchdog_mode or "),
-        ("host_watchdg_timeout", "did you mean host_watchdog_timeout or "),
-        ("49999", "there is no register '49999'"),
-        ("cjc_offset --model M-7017", "there is no register 'cjc_offset'"),
+        ("watchdog", "did you mean host_watchdog_enabled, host_watchdog_mode, host_"),
+        ("host_watchdg_timeout", "did you mean host_watchdog_timeout, host_"),
+        ("49999", "there is no register 49999; the nearest is 41001 log_records\n"),
+        ("40999 --model M-7018", "M-7018 has no register 40999; the nearest is 40492 host_watchdog_timeout_count\n"),
+        ("40001 --model M-7018 --firmware A1.0", "M-7018 has no register 40001, and no other holding register\n"),
+        ("440002", "there is no register 440002; the nearest is 41001 log_records\n"),
+        ("9999", "at address 9999: the last address is 1107; numbers of the manual have five digits, such as 40489\n"),
+        ("cjc_offset --model M-7017", "M-7017 has no register 'cjc_offset': give a name, "),
         ("", "give --model to list its registers, or a register to explain, such as i7000 registers 40489\n"),
     ],
 )
@@ -291,11 +300,30 @@ def test_an_erratum_is_explained(run: Run, name: str, line: str) -> None:
     assert line in run("errata", name).out.splitlines()
 
 
-def test_an_erratum_that_there_is_not_is_refused(run: Run) -> None:
-    result = run("errata", "E999")
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("E999", "there is no erratum E999: the ids are E01 to E140\n"),
+        ("9.9", "there is no erratum about section 9.9\n"),
+        ("SetCjc", "'SetCjc'; did you mean SetCjcEnabled, SetCjcOffset or SetCjcUpdate?\n"),
+        ("xyzzy", "'xyzzy': give an id such as E24, a section such as 2.11, or a command\n"),
+        ("", "there is no erratum '': give an id"),
+    ],
+)
+def test_an_erratum_that_there_is_not_is_refused(run: Run, name: str, message: str) -> None:
+    result = run("errata", name)
 
-    assert (
-        result.err
-        == "i7000: there is no erratum 'E999': give an id such as E24, a section such as 2.11, or a command\n"
-    )
-    assert result.code == 2
+    assert message in result.err
+    assert (result.code, result.out) == (2, "")
+
+
+@pytest.mark.parametrize("command", ["commands", "registers"])
+def test_an_empty_name_is_refused_like_any_other(run: Run, command: str) -> None:
+    result = run(command, "")
+
+    assert f"there is no {command.removesuffix('s')} '': give a name" in result.err
+    assert (result.code, result.out) == (2, "")
+
+
+def test_a_number_of_six_digits_is_one_of_the_manual(run: Run) -> None:
+    assert explained(run, "registers", "400489") == explained(run, "registers", "40489")

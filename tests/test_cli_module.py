@@ -18,7 +18,7 @@ def module(text: str) -> Eeprom:
 
 
 def refusal_of_module(text: str) -> str:
-    return refusal(lambda: module(text)).removeprefix(f"{text!r}: ")
+    return refusal(lambda: module(text)).removeprefix(f"--model {text}: ")
 
 
 # --- modules ----------------------------------------------------------------------------------------------------------
@@ -108,22 +108,23 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "model cannot be '': I-7017, I-7017F"),
-        ("I-7020", "model cannot be 'I-7020': I-7017"),
-        ("M-7019X", "model cannot be 'M-7019X': I-7019R, M-7019R, M-7019Z"),
+        ("", "--model '': there is no model '': I-7017, I-7017F"),
+        ("I-7020", "there is no model 'I-7020'; did you mean I-7018, "),
+        ("M-7019X", "there is no model 'M-7019X': I-7019R, M-7019R, M-7019Z"),
         ("M-7019R@", "firmware cannot be '': a letter, a digit and a minor number"),
         ("M-7019R@3.7", "firmware cannot be '3.7': a letter"),
         ("M-7019R,", "'' is not name=value"),
         ("M-7019R,checksum", "'checksum' is not name=value"),
-        ("M-7019R,adress=2", "a module has no setting 'adress': address, type, protocol"),
+        ("M-7019R,xyzzy=2", "a module has no setting 'xyzzy': the settings are address, type, "),
+        ("M-7019R,adress=2", "a module has no setting 'adress'; did you mean address?"),
         ("M-7019R,type=K,type=J", "type is given twice"),
         ("M-7019R,address=300", "address cannot be 300"),
         ("M-7019R,address=1A", "address: '1A' has hex digits: write 0x1A or 1Ah"),
-        ("M-7019R,address=x", "address: 'x' is not a number: write it in decimal, or in hex as 0x1A or 1Ah"),
+        ("M-7019R,address=x", "address: 'x' is not a whole number: write it in decimal, or in hex as 0x1A or 1Ah"),
         ("M-7019R,type=Q", "type: 'Q' is not a type"),
-        ("M-7019R,type=mixed", "type: type FF of 'mixed' is not defined"),
-        ("M-7019R,type=K/J", "type: 'K/J' has 2 values: 1 or 8 with / between, M-7019R"),
-        ("M-7017Z,type=V_5/V_5", "type: 'V_5/V_5' has 2 values: 1 or 10 or 20 with / between, M-7017Z"),
+        ("M-7019R,type=mixed", "type: type FF is not defined"),
+        ("M-7019R,type=K/J", "type: 'K/J' has 2 values: M-7019R takes 1 or 8, with / between them"),
+        ("M-7017Z,type=V_5/V_5", "type: 'V_5/V_5' has 2 values: M-7017Z takes 1 or 10 or 20, with / "),
         ("I-7018,type=V_10", "type cannot be V_10: MV_15 MV_50 "),
         ("I-7018,type=K/K/K/K/K/K/K/J", "type cannot be K/K/K/K/K/K/K/J: one type for all channels"),
         ("M-7019R,protocol=modbus", "protocol: 'modbus' is not one of dcon, rtu"),
@@ -141,7 +142,7 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
         ("I-7018,modbus_format=hex", "I-7018 has no modbus_format: M-7000 series only"),
         ("I-7018,response_delay=1", "I-7018 has no response_delay: M-7000 series only"),
         ("M-7019R,response_delay=31", "response_delay cannot be 31: 0..30"),
-        ("M-7019R,response_delay=1ms", "response_delay: '1ms' is not a number"),
+        ("M-7019R,response_delay=1ms", "response_delay: '1ms' is not a whole number"),
         ("M-7019R,single_ended=true", "single_ended cannot be true: 7017Z only"),
         ("M-7019R,mask=0x1FF", "mask cannot be 0x1FF: 0..255"),
         ("M-7019R,channels=8", "channels: there is no channel 8: 0..7"),
@@ -153,12 +154,12 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
         ("I-7018,open_wire_detection=true", "I-7018 has no open_wire_detection: models that notice"),
         ("M-7017,cjc_offset=1", "M-7017 has no cjc_offset: 7018 and 7019 series only"),
         ("I-7018,channel_cjc_offsets=1", "I-7018 has no channel_cjc_offsets: 7019 series only"),
-        ("M-7019R,cjc_offset=0.125", "cjc_offset: '0.125' cannot be: -40.96..40.96 in steps of 0.01 degC"),
-        ("M-7019R,cjc_offset=41", "cjc_offset: '41' cannot be: -40.96..40.96"),
-        ("M-7019R,cjc_offset=1e308", "cjc_offset: '1e308' cannot be: -40.96..40.96"),
-        ("M-7019R,cjc_offset=1mV", "cjc_offset: '1mV' cannot be: -40.96..40.96"),
-        ("M-7019R,channel_offsets=-12.9", "channel_offsets: '-12.9' cannot be: -12.8..12.7 in steps of 0.1 degC"),
-        ("M-7019R,host_watchdog_timeout=25.6", "host_watchdog_timeout: '25.6' cannot be: 0..25.5 in steps of 0.1"),
+        ("M-7019R,cjc_offset=0.125", "cjc_offset: '0.125' is not within -40.96..40.96 degC in steps of 0.01"),
+        ("M-7019R,cjc_offset=41", "cjc_offset: '41' is not within -40.96..40.96 degC"),
+        ("M-7019R,cjc_offset=1e308", "cjc_offset: '1e308' is not within -40.96..40.96 degC"),
+        ("M-7019R,cjc_offset=1mV", "cjc_offset: '1mV' is not within -40.96..40.96 degC"),
+        ("M-7019R,channel_offsets=-12.9", "channel_offsets: '-12.9' is not within -12.8..12.7 degC in steps of 0.1"),
+        ("M-7019R,host_watchdog_timeout=25.6", "host_watchdog_timeout: '25.6' is not within 0..25.5 in steps of 0.1"),
         ("M-7019R,host_watchdog_timeout=long", "host_watchdog_timeout: 'long' is not a quantity"),
     ],
 )
@@ -167,7 +168,7 @@ def test_a_module_that_there_is_not_is_refused_with_the_reason(text: str, messag
 
 
 def test_a_refusal_begins_with_what_was_written() -> None:
-    with pytest.raises(UsageError, match=r"^'I-7018,baud=1': baud: "):
+    with pytest.raises(UsageError, match=r"^--model I-7018,baud=1: baud: "):
         read_module("I-7018,baud=1", 1)
 
 
@@ -204,7 +205,7 @@ SAID = st.builds("{}={}".format, st.sampled_from(NAMES), st.sampled_from(WORDS) 
 def test_any_settings_are_a_module_or_refused(text: str) -> None:
     message = refusal(lambda: power_on(module(text), now=0.0))
 
-    assert not message or message.startswith(repr(text))
+    assert not message or message.startswith(f"--model {text or repr(text)}: ")
 
 
 @given(st.text())
@@ -212,4 +213,4 @@ def test_any_settings_are_a_module_or_refused(text: str) -> None:
 def test_any_text_is_a_module_or_refused(text: str) -> None:
     message = refusal(lambda: power_on(module(text), now=0.0))
 
-    assert not message or message.startswith(repr(text))
+    assert not message or message.startswith(f"--model {text or repr(text)}: ")

@@ -22,12 +22,12 @@ def test_a_number_reads_the_same_in_each_spelling(number: int) -> None:
     [
         ("1A", "'1A' has hex digits: write 0x1A or 1Ah"),
         ("ff", "'ff' has hex digits: write 0xff or ffh"),
-        ("", "'' is not a number: write it in decimal, or in hex as 0x1A or 1Ah"),
-        ("h", "'h' is not a number"),
-        ("0x", "'0x' is not a number"),
-        ("0x1Ah", "'0x1Ah' is not a number"),
-        ("1.5", "'1.5' is not a number"),
-        ("12345678901", "'12345678901' is not a number"),
+        ("", "'' is not a whole number: write it in decimal, or in hex as 0x1A or 1Ah"),
+        ("h", "'h' is not a whole number"),
+        ("0x", "'0x' is not a whole number"),
+        ("0x1Ah", "'0x1Ah' is not a whole number"),
+        ("1.5", "'1.5' is not a whole number"),
+        ("12345678901", "'12345678901' is too large: a number has at most ten digits"),
     ],
 )
 def test_a_text_with_no_or_two_readings_is_refused(text: str, message: str) -> None:
@@ -45,7 +45,7 @@ def test_a_text_with_no_or_two_readings_is_refused(text: str, message: str) -> N
         ("106h", "'106h' is not a byte: 00h..FFh"),
         ("-1h", "'-1h' is not a byte"),
         ("256", "'256' is not a byte"),
-        ("x", "'x' is not a number"),
+        ("x", "'x' is not a whole number"),
     ],
 )
 def test_a_byte_of_settings_is_marked_as_hex(text: str, message: str) -> None:

@@ -44,7 +44,6 @@ def test_modules_are_told_apart_by_their_addresses() -> None:
 
 def test_an_address_can_be_one_of_the_settings() -> None:
     assert list(Module(("I-7018,address=2",)).knowledge("dcon").modules) == [0x02]
-    assert list(Module(("3=I-7018,address=2",)).knowledge("dcon").modules) == [0x03]
 
 
 @pytest.mark.parametrize(
@@ -55,15 +54,19 @@ def test_an_address_can_be_one_of_the_settings() -> None:
             "auto",
             "give the addresses of several modules: --model 1=I-7018 --model 2=I-7017",
         ),
-        (Module(("256=I-7018",)), "auto", "'256=I-7018': an address is 0..255 or 00h..FFh"),
+        (Module(("256=I-7018",)), "auto", "--model 256=I-7018: an address is 0..255 or 00h..FFh"),
         (Module(("1A=I-7018",)), "auto", "0x1A"),
-        (Module(("I-7099",)), "auto", "--model cannot be I-7099"),
+        (Module(("I-7099",)), "auto", "there is no model 'I-7099'; did you mean "),
         (Module(("I-7018",), types="V_10"), "auto", "--type cannot be V_10"),
         (Module(("I-7018",), firmware="X"), "auto", "--firmware cannot be X"),
         (Module(("I-7018",), single_ended=True), "auto", "--single-ended cannot be given"),
         (Module(("I-7018",)), "rtu", "I-7018 does not speak Modbus: M-7000 series only"),
         (Module(checksum=True), "rtu", "--format and --checksum are for DCON"),
         (Module(modbus_format=ModbusDataFormat.HEX), "dcon", "--modbus-format is for --protocol rtu"),
+        (Module(("3=I-7018,address=2",)), "auto", "--model 3=I-7018,address=2: the address is given twice"),
+        (Module(("zz=I-7018",)), "auto", "--model zz=I-7018: 'zz' is not a whole number"),
+        (Module(types="FOO"), "auto", "--type: 'FOO' is not a type: "),
+        (Module(types="K,J"), "auto", "no model accepts it: --type cannot be K,J: 8 type codes"),
         (Module(("I-7018,colour=red",)), "auto", "a module has no setting 'colour'"),
     ],
 )

@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import Model, Protocol, modbus
-from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_stream
+from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_recording, of_stream
 from i7000.dissect import Knowledge, Known
+from i7000.recording import Carried, End, Event, Record, Start, text
 from tests.dissect.frames import REQUEST, RESPONSE
 from tests.dissect.strategies import frames, protocols
 from tests.dissect.test_capture import IN, OUT, interface, option, packet, pcap, record, rtac, section
@@ -207,3 +208,52 @@ def test_no_capture_file_makes_it_raise(data: bytes) -> None:
     reads = list(of_capture([section() + interface() + data], Knowledge.given(Known(Model.M_7018)), None))
 
     assert all(read.heard or read.missing for read in reads)
+
+
+# --- recordings -------------------------------------------------------------------------------------------------------
+
+BEGIN = Start("2026-11-30T12:00:00.000000+00:00", "i7000 listen", "1", "COM3")
+
+
+def recorded(*records: Record | str) -> list[Read]:
+    lines = (it if isinstance(it, str) else text(it) for it in records)
+    return list(of_recording(enumerate(lines, 1), NOTHING, None))
+
+
+def test_a_recording_has_dates_and_directions() -> None:
+    reads = recorded(
+        BEGIN,
+        Carried(0.5, b"$012\r", sent=True),
+        Carried(0.6, b"!010F", sent=False),
+        Event(0.65, "a type changed"),
+        Carried(0.7, b"0600\r", sent=False),
+        End(0.7),
+    )
+
+    assert names(reads) == ["ReadConfiguration", "Configuration"]
+    assert [(read.line, read.time) for read in reads] == [
+        (2, "2026-11-30T12:00:00.500000+00:00"),
+        (5, "2026-11-30T12:00:00.700000+00:00"),
+    ]
+    assert all(read.understood for read in reads)
+
+
+def test_a_recording_without_an_end_is_incomplete() -> None:
+    *_, last = recorded(BEGIN, Carried(0.5, b"$012\r", sent=True))
+
+    assert (last.missing, last.note) == (Missing.DAMAGE, "the recording has no end: what followed is not in it")
+    assert last.text == "line 2"
+
+
+def test_a_line_that_is_no_record_is_reported_and_the_rest_is_read() -> None:
+    reads = recorded(BEGIN, Carried(0.5, b"$0", sent=True), '{"record": "bytes"', Carried(0.6, b"$012\r"), End(0.6))
+
+    assert [read.note for read in reads if read.missing] == ["no JSON object"]
+    assert names(reads)[-1] == "ReadConfiguration"
+
+
+@pytest.mark.parametrize("time", ["", "yesterday", "0001-01-01T00:00:00"])
+def test_a_recording_without_a_date_has_no_times(time: str) -> None:
+    (read,) = recorded(BEGIN._replace(time=time), Carried(0.5, b"$012\r"), End(0.5))
+
+    assert read.time is None

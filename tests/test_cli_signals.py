@@ -143,7 +143,7 @@ def test_the_same_seed_has_the_same_noise() -> None:
         ("", "'': write [ADDRESS:]CHANNELS=SIGNAL, such as 0=1.5V"),
         ("0:1.5V", "'0:1.5V': write [ADDRESS:]CHANNELS=SIGNAL, such as 0=1.5V"),
         ("02:0=1V", "'02:0=1V': no module has the address 02, only 01"),
-        ("xyz:0=1V", "'xyz:0=1V': 'xyz' is not a number"),
+        ("xyz:0=1V", "'xyz:0=1V': 'xyz' is not a whole number"),
         ("=1V", "'=1V': I-7017 at 01: '' is not a channel: give 0..7, a range such as 0-7, or all; or cjc"),
         ("8=1V", "'8=1V': I-7017 at 01: there is no channel 8: 0..7; or cjc"),
         ("3-1=1V", "'3-1=1V': I-7017 at 01: there is no channel 3-1: 0..7"),

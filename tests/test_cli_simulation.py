@@ -13,10 +13,10 @@ from time import sleep
 import pytest
 
 from i7000.cli.outlet import Outlet
-from i7000.cli.simulation import read_faults, read_place
+from i7000.cli.serving import read_place
 from i7000.cli.words import UsageError
+from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.recordings import MOST_BYTES, MOST_ROWS
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.tcp import MOST_CONNECTIONS
 from tests.simulation import INPUTS, KELVIN, SAID, free_port, simulated, talk
 from tests.terminal import Run
@@ -111,7 +111,7 @@ def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: p
             return super().write(text)
 
     monkeypatch.setattr("sys.stdout", Unread())
-    monkeypatch.setattr("i7000.cli.simulation.Outlet", partial(Outlet, most=0))
+    monkeypatch.setattr("i7000.cli.serving.Outlet", partial(Outlet, most=0))
 
     told = simulated(
         run, "--model", KELVIN, "--tcp", str(port), "--view", "lines",
@@ -208,31 +208,6 @@ def test_a_place_that_is_taken_is_shown(run: Run) -> None:
 
     assert (told.code, told.out) == (2, "")
     assert re.fullmatch(r"i7000: cannot listen at 127\.0\.0\.1:\d+: Address already in use\n", told.err)
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("echo=1", "echo has no value"),
-        ("drop", "give a probability: --fault drop=0.01"),
-        ("drop=much", "give a probability"),
-        ("drop=0.1:3", "only late has a time"),
-        ("late=0.1:soon", "give a probability"),
-        ("late=0.1:61", "late_by cannot be 61.0: 0..60"),
-        ("flip=2", "flip cannot be 2.0: 0..1"),
-        ("late_by=1", "there is no fault 'late_by'"),
-    ],
-)
-def test_an_unknown_fault_is_refused(text: str, said: str) -> None:
-    with pytest.raises(UsageError, match=re.escape(said)):
-        read_faults([text])
-
-
-def test_faults_add_up() -> None:
-    faults = read_faults(["echo", "lumps", "drop=0.1", "flip=0.2", "noise=0.3", "late=0.4:0.5"])
-
-    assert (faults.echo, faults.lumps, faults.drop, faults.flip) == (True, True, 0.1, 0.2)
-    assert (faults.noise, faults.late, faults.late_by) == (0.3, 0.4, 0.5)
 
 
 def test_only_this_machine_can_connect_unless_a_host_is_given() -> None:

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from i7000 import Fault, Model, Noise, Profile, Protocol, TypeCode, dcon, modbus, strategies
-from i7000.cli.traffic import lines
-from i7000.simulator.observed import Observed
+from i7000.cli.traffic import change_line, lines
+from i7000.simulator.observed import Change, Observed
 
 DCON, RTU = Protocol.DCON, Protocol.MODBUS_RTU
 I_7018R = Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8)
@@ -39,8 +39,10 @@ def rtu(message: modbus.Message) -> bytes:
 
 def test_a_command_and_its_answer_are_two_lines_with_readings_in_units() -> None:
     assert told(b"#01\r", REPORT) == [
-        "    12.345  127.0.0.1:51234  #01  ReadAnalogInputs",
-        f"            {REPORT[:-1].decode()}  AnalogInputs  25.12, OVER_RANGE, UNDER_RANGE, 0, 0, 0, 0, 0 degC",
+        "    12.345  127.0.0.1:51234  -> #01  ReadAnalogInputs",
+        f"            <- {REPORT[:-1].decode()}  AnalogInputs  25.12, OVER_RANGE, UNDER_RANGE, "
+        + "0.00, " * 4
+        + "0.00 degC",
     ]
 
 
@@ -50,7 +52,7 @@ def test_a_unit_is_shown_once_for_neighbours_that_share_it() -> None:
 
     _, answer = told(b"#01\r", report, mixed)
 
-    assert answer.endswith("25.1 degC, disabled, 1, disabled, 2.5, 3, 4 V, UNDER_RANGE")
+    assert answer.endswith("25.1 degC, disabled, 1.000, disabled, 2.500, 3.000, 4.000 V, UNDER_RANGE")
 
 
 def test_one_channel_is_read_in_its_unit() -> None:
@@ -68,15 +70,15 @@ def test_fields_are_shown_in_words() -> None:
 
 
 def test_a_refusal_is_shown_by_its_name() -> None:
-    assert told(b"#019\r", b"?01\r")[1] == "            ?01  Refused"
+    assert told(b"#019\r", b"?01\r")[1] == "            <- ?01  Refused"
 
 
 def test_silence_of_a_module_that_was_asked_is_shown() -> None:
-    assert told(b"#01\r") == ["    12.345  127.0.0.1:51234  #01  ReadAnalogInputs  silence"]
+    assert told(b"#01\r") == ["    12.345  127.0.0.1:51234  -> #01  ReadAnalogInputs  silence"]
 
 
 def test_what_is_for_no_module_is_shown_as_such() -> None:
-    assert told(b"$99M\r", profile=None) == ["    12.345  127.0.0.1:51234  $99M  for no module here"]
+    assert told(b"$99M\r", profile=None) == ["    12.345  127.0.0.1:51234  -> $99M  for no module here"]
 
 
 @pytest.mark.parametrize(
@@ -126,7 +128,7 @@ def test_the_answer_to_a_change_of_the_checksum_setting_is_read_with_the_new_one
 
 def test_an_answer_that_cannot_be_read_is_shown_with_the_fault() -> None:
     assert told(b"$012\r", b"!01\x07\r", faults=["flipped a bit", "late by 0.25 s"])[1] == (
-        r"            !01\x07  not understood: character at byte 3; allowed: characters 20h..7Eh"
+        r"            <- !01\x07  not understood: character at byte 3; allowed: characters 20h..7Eh"
         "  [flipped a bit, late by 0.25 s]"
     )
 
@@ -135,7 +137,7 @@ def test_an_answer_to_what_cannot_be_read_is_shown() -> None:
     asked, answer = told(b"$01\xffZ\r", b"?01\r")
 
     assert r"$01\xffZ  not understood: character at byte 3" in asked
-    assert answer.strip() == "?01"
+    assert answer.strip() == "<- ?01"
 
 
 def test_noise_is_shown_escaped_and_cut() -> None:
@@ -146,13 +148,13 @@ def test_noise_is_shown_escaped_and_cut() -> None:
 
 
 def test_an_answer_to_noise_is_shown() -> None:
-    assert told(Noise(b"x", Fault.LEADING), b"!01\r", None)[1].strip() == "!01"
+    assert told(Noise(b"x", Fault.LEADING), b"!01\r", None)[1].strip() == "<- !01"
 
 
 def test_nothing_that_moves_a_cursor_comes_from_a_client_or_a_fault() -> None:
     (line,) = told(b"$99M\r", profile=None, client="/dev/\x1b[2J\n", faults=["\x07"])
 
-    assert line.endswith(r"/dev/\x1b[2J\n  $99M  for no module here  [\x07]")
+    assert line.endswith(r"/dev/\x1b[2J\n  -> $99M  for no module here  [\x07]")
 
 
 def test_a_profile_without_types_leaves_readings_as_they_were_sent() -> None:
@@ -170,7 +172,7 @@ def test_registers_are_shown_by_name_with_readings_in_units() -> None:
     )
 
     assert asked.endswith("01 04 00 00 00 03 B0 0B  ReadInputRegisters  30001..30003 analog_input")
-    assert answer.endswith("InputRegisters  30001..30003 analog_input 25.12284 degC, OVER_RANGE, UNDER_RANGE")
+    assert answer.endswith("InputRegisters  30001..30003 analog_input 25.1 degC, OVER_RANGE, UNDER_RANGE")
 
 
 def test_what_is_written_is_shown_in_units() -> None:
@@ -237,13 +239,13 @@ def test_a_request_that_cannot_be_read_is_shown_with_the_fault_and_the_answer() 
     asked, answer = modbus_line(modbus.seal(b"\x01\x2b"), modbus.seal(b"\x01\xab\x01"))
 
     assert "01 2B 40 3F  not understood: function at byte 1" in asked
-    assert answer.strip() == "01 AB 01 9E F0"
+    assert answer.strip() == "<- 01 AB 01 9E F0"
 
 
 def test_a_response_that_cannot_be_read_is_shown_with_the_fault() -> None:
     _, answer = told(rtu(modbus.ReadInputRegisters(1, 0, 3)), b"\x01\x04", M_7019R)
 
-    assert answer.strip() == "01 04  not understood: length at byte 2; allowed: 4 to 256 bytes"
+    assert answer.strip() == "<- 01 04  not understood: length at byte 2; allowed: 4 to 256 bytes"
 
 
 def test_modbus_noise_is_shown_in_hex_and_cut() -> None:
@@ -252,7 +254,7 @@ def test_modbus_noise_is_shown_in_hex_and_cut() -> None:
     )
 
     assert first.endswith("1B 1B... (90 bytes)  no frame: crc")
-    assert answer.strip() == "78"
+    assert answer.strip() == "<- 78"
 
 
 # --- nothing raises ---------------------------------------------------------------------------------------------------
@@ -299,3 +301,14 @@ def test_every_exchange_by_modbus_is_shown_by_name(exchange: strategies.modbus.E
 
     assert f"  {type(exchange.request).__name__}" in asked.plain
     assert f"  {type(exchange.response).__name__}" in answered.plain
+
+
+# --- changes of modules -----------------------------------------------------------------------------------------------
+
+
+def test_a_change_of_a_module_is_a_line_of_its_own() -> None:
+    stored = Change(1.5, 0x1F, Model.I_7018, ("name 7018 -> HOT", "address 1 -> 31"), stored=True)
+    power = Change(1.5, 0x01, Model.I_7018, ("power cycle",))
+
+    assert change_line(stored).plain == "     1.500  1F I-7018  EEPROM: name 7018 -> HOT, address 1 -> 31"
+    assert change_line(power).plain == "     1.500  01 I-7018  power cycle"

@@ -10,14 +10,23 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
+from rich.text import Text
 
-from i7000 import Firmware, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit
+import i7000
+from i7000 import Fault, Firmware, LineSettings, Model, Profile, Protocol, ReportSettings, TypeCode, Unit
 from i7000.cli.view import View
 from i7000.device import Signal, Signals, State, factory, power_on
-from i7000.simulator.observed import Observed
+from i7000.simulator.observed import Change, Observed
+from i7000.simulator.sources import Fixed, Noise, Ramp, Recorded, Sine, Sources
 from tests.waiting import ENOUGH
 
 HOT = (Signal(25.12, Unit.CELSIUS), Signal(1500.0, Unit.CELSIUS), Signal(-300.0, Unit.CELSIUS))
+VOLT = Unit.VOLT
+SOURCES = Sources((
+    *map(Fixed, (*HOT, Signal(5.0, Unit.CELSIUS))),
+    Ramp(0, 10, 60, VOLT), Sine(0, 1, 60, VOLT), Noise(0, 1, VOLT), Recorded((0,), (1,), VOLT),
+))  # fmt: skip
+NOISE = i7000.Noise(b"x", Fault.LEADING)
 SIGNALS = Signals((*HOT, Signal(5.0, Unit.CELSIUS), Signal(1.5, Unit.VOLT)))
 
 
@@ -30,19 +39,28 @@ VOLTS = module(Model.I_7017, report_settings=ReportSettings(checksum=True), addr
 EVERY = (MIXED, VOLTS, module(Model.I_7018, host_watchdog_timed_out=True), module(Model.M_7017Z, single_ended=True))
 
 
+Seen = Observed | Change
+
+
 def drawn(  # noqa: PLR0913, PLR0917 - all but the first are options
     states: Sequence[State],
-    seen: Sequence[Observed] = (),
+    seen: Sequence[Seen] = (),
     width: int = 140,
     height: int = 40,
     encoding: str = "utf-8",
     notices: Mapping[str, int] | None = None,
+    prompt: str | None = None,
+    sources: Sources = SOURCES,
 ) -> list[str]:
     file = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
     console = Console(file=file, width=width, height=height, color_system=None)
-    view = View(lambda: [(state, SIGNALS) for state in states], console, notices=notices)
-    for observed in seen:
-        view.show(observed)
+    line = None if prompt is None else lambda: Text(prompt)
+    view = View(lambda: [(state, SIGNALS, sources) for state in states], console, (), notices, line)
+    for it in seen:
+        if isinstance(it, Change):
+            view.change(it)
+        else:
+            view.show(it)
     console.print(view)
     file.seek(0)
     return [line.rstrip() for line in file.read().splitlines()]
@@ -55,57 +73,67 @@ def heard(frame: bytes = b"#01\r", answer: bytes | None = None, at: float = 1.0,
 # --- the modules ------------------------------------------------------------------------------------------------------
 
 
-def test_a_module_is_a_row_with_its_settings_and_the_readings_of_now() -> None:
-    header, first, second, *_ = drawn([MIXED, VOLTS])
+def test_a_module_has_a_heading_and_its_channels_with_type_reading_and_source() -> None:
+    assert drawn([MIXED], width=80)[:5] == [
+        "01  M-7019R@B3.7  RTU 9600 N81",
+        " 0 K           25.1 degC  25.12degC    4 V_10       1.500 V     ramp",
+        " 1 K     OVER_RANGE       1500degC     5 V_10       0.000 V     sine",
+        " 2 K    UNDER_RANGE       -300degC     6 V_10       0.000 V     noise",
+        " 3 K       disabled       5degC        7 V_10       0.000 V     csv",
+    ]
 
-    assert header.split() == ["module", "protocol", "line", "check", "readings"]
-    assert first == (
-        "01  M-7019R@B3.7  RTU       9600 N81  CRC    "
-        "25.1 degC, OVER_RANGE, UNDER_RANGE, disabled, 1.500, 0.000, 0.000, 0.000 V"
+
+def test_channels_stand_in_as_many_columns_as_there_is_room_for() -> None:
+    assert [len(drawn([VOLTS], width=width)) for width in (30, 80, 120, 200)] == [10, 6, 5, 4]
+
+
+def test_values_stay_in_their_columns_when_they_change() -> None:
+    cold, hot = (
+        drawn([module(type_codes=(TypeCode.K,) * 8)], sources=Sources((Fixed(None),) * 8), width=width)
+        for width in (80, 80)
     )
-    assert second.startswith("1F  I-7017@B3.7   DCON      9600 N81  sum    0.000, 0.000,")
+
+    assert cold == hot
 
 
-def test_on_a_narrow_terminal_the_settings_stand_below_the_name() -> None:
-    _, first, second, *_ = drawn([MIXED], width=60)
-
-    assert first.startswith("01  M-7019R@B3.7      25.1 degC,")
-    assert second.startswith("    RTU 9600 N81 CRC  ")
+def test_an_input_without_a_source_is_open() -> None:
+    assert drawn([VOLTS], sources=Sources(), width=30)[1].endswith("open")
 
 
 def test_the_settings_are_those_of_now_and_not_those_of_after_power_on() -> None:
     state = MIXED.store(line_settings=LineSettings.from_byte(0x8A), protocol=Protocol.DCON)
-    _, before, *_ = drawn([state])
-    _, after, *_ = drawn([power_on(state.eeprom, now=0.0)])
 
-    assert before.split()[2:6] == ["RTU", "9600", "N81", "CRC"]
-    assert after.split()[2:6] == ["DCON", "115200", "E81", "none"]
+    assert drawn([state])[0] == "01  M-7019R@B3.7  RTU 9600 N81"
+    assert drawn([power_on(state.eeprom, now=0.0)])[0] == "01  M-7019R@B3.7  DCON 115200 E81 no checksum"
+    assert drawn([VOLTS])[0] == "1F  I-7017@B3.7  DCON 9600 N81 checksum"
 
 
 def test_a_baud_rate_that_no_module_has_is_shown_as_its_code() -> None:
-    _, row, *_ = drawn([MIXED.keep(line_settings=LineSettings(0x3F))])
-
-    assert "code 3F N81" in row
+    assert "code 3F N81" in drawn([MIXED.keep(line_settings=LineSettings(0x3F))])[0]
 
 
 def test_a_watchdog_that_timed_out_is_marked() -> None:
-    _, row, *_ = drawn([module(host_watchdog_timed_out=True)])
+    timed_out = module(host_watchdog_timed_out=True)
 
-    assert "WATCHDOG TIMED OUT  " in row
+    assert drawn([timed_out])[0].endswith("  WATCHDOG TIMED OUT")
+    assert "M-7019R@B3.7  WATCHDOG TIMED OUT  0.000, 0.000, " in drawn([timed_out], height=2)[0]
 
 
 def test_a_module_in_init_mode_is_marked_and_has_address_00() -> None:
-    _, row, *_ = drawn([power_on(MIXED.eeprom, init_switch=True, now=0.0)])
+    assert drawn([power_on(MIXED.eeprom, init_switch=True, now=0.0)])[0] == (
+        "00  M-7019R@B3.7  DCON 9600 N81 no checksum  INIT"
+    )
 
-    assert row.startswith("00  M-7019R@B3.7  DCON")
-    assert "INIT  " in row
+
+def test_an_init_switch_that_waits_for_power_on_is_marked() -> None:
+    assert drawn([MIXED.switched(init_switch=True)])[0].endswith("RTU 9600 N81  INIT switch on")
 
 
 def test_only_the_channels_of_the_connecting_mode_are_shown() -> None:
     differential, single_ended = (drawn([module(Model.M_7017Z, single_ended=mode)]) for mode in (False, True))
 
-    assert len(re.findall(r"\d\.\d{3}", "".join(differential))) == 10
-    assert len(re.findall(r"\d\.\d{3}", "".join(single_ended))) == 20
+    assert len(re.findall(r"\d\.\d{3} V", "".join(differential))) == 10
+    assert len(re.findall(r"\d\.\d{3} V", "".join(single_ended))) == 20
 
 
 def test_modules_that_have_no_room_are_shown_in_a_line_each_and_the_rest_counted() -> None:
@@ -115,7 +143,7 @@ def test_modules_that_have_no_room_are_shown_in_a_line_each_and_the_rest_counted
     assert [row[:2] for row in rows[:14]] == [f"{at:02X}" for at in range(14)]
     assert all(len(row) <= 80 for row in rows)
     assert rows[14] == "and 18 more modules"
-    assert rows[15] == "on the line"
+    assert rows[15] == "on the line  requests 30"
     assert rows[-1].endswith("silence")
 
 
@@ -153,10 +181,31 @@ def test_notices_are_shown_with_how_often_they_came() -> None:
         console.print(view)
 
     assert captured.get().splitlines()[-4:-1] == [
-        "on the line",
+        "on the line  requests 1",
         "a connection was refused: 64 are open (3 times)",
         "an answer was lost: its host does not read",
     ]
+
+
+def test_what_was_on_the_line_is_counted() -> None:
+    noise = Observed(1.0, "pty", NOISE, Protocol.DCON, None, None, ("byte 1 lost", "byte 2 lost"))
+    rows = drawn([], [heard(), heard(answer=b"!01\r"), noise])
+
+    assert rows[0] == "on the line  requests 2  answers 1  faults 2  noise 1"
+
+
+def test_changes_of_modules_stand_among_the_traffic() -> None:
+    change = Change(1.0, 1, Model.I_7018, ("watchdog tripped",), stored=True)
+
+    assert drawn([], [change]) == ["on the line", "     1.000  01 I-7018  EEPROM: watchdog tripped"]
+
+
+def test_the_prompt_is_the_last_line_of_the_screen() -> None:
+    rows = drawn([MIXED], [heard()], height=20, prompt="q quit")
+    small = drawn([MIXED] * 9, [heard()] * 30, height=10, prompt="q quit \x1b[2J")
+
+    assert (len(rows), rows[-1]) == (20, "q quit")
+    assert (len(small), small[-1]) == (10, r"q quit \x1b[2J")
 
 
 # --- the traffic ------------------------------------------------------------------------------------------------------
@@ -180,8 +229,8 @@ def test_a_long_line_is_folded_beside_its_time() -> None:
 def test_on_a_very_narrow_terminal_lines_are_folded_from_the_left() -> None:
     rows = drawn([MIXED], [heard(b"$012\r", b"!010E0642\r")], width=30)
 
-    assert "1.000  pty  $012" in rows
-    assert any(row.startswith("!010E0642") for row in rows)
+    assert "1.000  pty  -> $012" in rows
+    assert any(row.startswith("<- !010E0642") for row in rows)
 
 
 def test_no_control_character_reaches_the_terminal() -> None:
@@ -203,11 +252,16 @@ def test_what_the_terminal_cannot_write_is_escaped() -> None:
     st.integers(0, 4),
     st.integers(1, 160),
     st.integers(1, 40),
+    st.none() | st.text(max_size=200),
 )
-def test_a_view_fits_every_terminal(states: list[State], frames: int, notices: int, width: int, height: int) -> None:
+def test_a_view_fits_every_terminal(  # noqa: PLR0913, PLR0917 - all that a view shows
+    states: list[State], frames: int, notices: int, width: int, height: int, prompt: str | None
+) -> None:
     seen = [heard(b"$012\r", b"!010E0642\r", at=at) for at in range(frames)]
 
-    rows = drawn(states, seen, width, height, notices={f"an answer was lost {at}": at for at in range(notices)})
+    rows = drawn(
+        states, seen, width, height, notices={f"an answer was lost {at}": at for at in range(notices)}, prompt=prompt
+    )
 
     assert len(rows) <= height
     assert all(len(row) <= width for row in rows)
@@ -231,7 +285,7 @@ class Terminal(io.StringIO):
 
 def live(terminal: io.StringIO, *, force_terminal: bool = True) -> View:
     console = Console(file=terminal, force_terminal=force_terminal, width=100, height=30, legacy_windows=False)
-    return View(lambda: [(MIXED, SIGNALS)], console)
+    return View(lambda: [(MIXED, SIGNALS, SOURCES)], console)
 
 
 def test_what_is_shown_appears_and_the_terminal_is_left_as_it_was() -> None:

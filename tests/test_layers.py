@@ -33,18 +33,21 @@ RINGS = {
     "spec": 4,
     "__main__": 4,
     "examples": 4,
+    "link": 4,
     "simulator": 4,
+    "recording": 4,
     "conformance": 4,
 }
 EXTRAS = {
     "strategies": {"hypothesis"},
     "cli": {"cyclopts", "rich"},
     "examples": {"serial"},
+    "link": {"serial"},
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "codecs", "collections", "contextlib", "enum", "functools", "itertools", "linecache", "math", "operator",
-    "re", "struct", "types", "typing",
+    "attrs", "codecs", "collections", "contextlib", "decimal", "enum", "functools", "itertools", "json", "linecache",
+    "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

@@ -40,7 +40,7 @@ def as_bytes(name: str, value: object) -> bytes:
     try:
         return memoryview(value).tobytes()
     except ValueError:
-        raise ArgumentError(name, value, f"{_BYTES_LIKE}, not released") from None
+        raise ArgumentError(name, value, _BYTES_LIKE, f"{name} is a memoryview that was released") from None
 
 
 def as_tuple(name: str, values: Iterable[T]) -> tuple[T, ...]:

@@ -6,6 +6,7 @@ type; for messages and module settings they raise its subclass `EncodeError`. A 
 refusal (``?AA``) is a value.
 """
 
+import re
 from enum import Enum
 
 from i7000.frozen import frozen
@@ -20,6 +21,7 @@ __all__ = [
     "Noise",
     "StateError",
     "shown",
+    "written",
 ]
 
 
@@ -118,7 +120,8 @@ class DecodeError(I7000Error, ValueError):
         where = f" in {self.field}" if self.field not in ("", self.fault.value) else ""
         allowed = f"; allowed: {self.allowed}" if self.allowed else ""
         source = f" (manual {self.section})" if self.section else ""
-        return f"{self.fault.value}{where} at byte {self.offset} of {shown(self.wire)}{allowed}{source}"
+        frame = written(self.wire) or "an empty frame"
+        return f"{self.fault.value}{where} at byte {self.offset} of {frame}{allowed}{source}"
 
 
 def _decode_error(fault: Fault, wire: bytes, offset: int, *facts: str) -> DecodeError:
@@ -140,8 +143,9 @@ class ArgumentError(I7000Error, TypeError):
         self.reason = reason
 
     def __str__(self) -> str:
-        reason = self.reason or f"{self.argument} cannot be {shown(self.value)} ({type(self.value).__name__})"
-        return f"{reason}: {self.allowed}"
+        if self.reason:
+            return f"{self.reason}: {self.allowed}"
+        return f"{self.argument} must be {self.allowed}, not {shown(self.value)} ({type(self.value).__name__})"
 
 
 class StateError(I7000Error):
@@ -168,6 +172,34 @@ def shown(value: object) -> str:
     except Exception:  # noqa: BLE001 - a `__repr__` of another's
         return f"a value of {type(value).__name__} whose repr() fails"
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}... ({len(text)} characters)"
+
+
+_ESCAPES = {byte: f"\\x{byte:02X}" for byte in range(0x100) if not 0x20 <= byte <= 0x7E} | {
+    ord("\r"): r"\r", ord("\n"): r"\n", ord("\t"): r"\t", ord("\\"): r"\\",
+}  # fmt: skip
+_TEXT = bytes((*range(0x20, 0x7F), *b"\r\n\t"))
+
+
+def written(wire: bytes) -> str:
+    r"""Return bytes as people write frames: DCON as text with escapes, Modbus as pairs of hex digits.
+
+    Shape: text if at least half of the bytes are text, and for a single byte; else hex. More than 60 characters of text
+        or 20 bytes of hex are cut. Whatever is not cut has no second reading: blanks at the ends are escaped, and so is
+        each blank of a text that would read as hex.
+
+    >>> print(written(b"$012B6\r"), written(b"!01\xff\r"), written(bytes.fromhex("010400000008F1CC")), sep=", ")
+    $012B6\r, !01\xFF\r, 01 04 00 00 00 08 F1 CC
+    """
+    part = wire[:_SHOWN]
+    if len(part) > 1 and len(part.translate(None, _TEXT)) * 2 > len(part):
+        most = _SHOWN // 3
+        text = part[:most].hex(" ").upper()
+    else:
+        most = _SHOWN
+        text = re.sub("^ +| +$", lambda blanks: r"\x20" * len(blanks[0]), part.decode("latin-1").translate(_ESCAPES))
+        if re.fullmatch("[0-9A-F]{2}( [0-9A-F]{2})+", text):
+            text = text.replace(" ", r"\x20")
+    return text if len(wire) <= most else f"{text}... ({len(wire)} bytes)"
 
 
 @frozen

@@ -6,7 +6,7 @@ model does not accept a message.
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, get_args
 
 from attrs import fields
 
@@ -15,7 +15,7 @@ from i7000.availability import Availability
 from i7000.errors import ArgumentError
 from i7000.profile import Profile
 
-__all__ = ["CompiledOnce", "Message", "answer_of", "frozen"]
+__all__ = ["CompiledOnce", "Message", "Query", "Response", "answer_of", "frozen"]
 
 _IN_HEX = ("address", "new_address", "mask")
 
@@ -107,6 +107,30 @@ class Message:
 
         Errors: `EncodeError`.
         """
+
+
+class Response(Message):
+    """The base class of the responses of both protocols: the messages that a module sends."""
+
+    __slots__ = ()
+
+    _instead = "one of the responses, such as InputRegisters"
+
+
+R_co = TypeVar("R_co", bound=Response, covariant=True)
+"""The response to a message of a host."""
+
+
+class Query(Message, Generic[R_co]):
+    """The base class of the messages that a host sends, of both protocols; R_co is the class of the response.
+
+    Shape: a `i7000.dcon.Command`, a `i7000.dcon.Broadcast` (a query without a response: ``Query[Never]``) or a
+        `i7000.modbus.Request`.
+    """
+
+    __slots__ = ()
+
+    _instead = "one of the requests, such as ReadInputRegisters"
 
 
 def answer_of(kind: Any) -> Any:  # noqa: ANN401 - classes

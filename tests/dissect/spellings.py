@@ -87,6 +87,8 @@ BYTES: Final[dict[str, Spelling]] = {
     "Rust, a string": lambda wire: f'b"{_in_c(wire)}"',
     "IEC 61131": _joined(", ", "16#%02X"),
     "slsnif": lambda wire: " ".join(f"{_shown(byte)}({byte:02x})" for byte in wire),
+    "slsnif, decimal": lambda wire: " ".join(f"{_shown(byte)}({byte:03})" for byte in wire),
+    "Perl": lambda wire: f'"{_joined("", chr(92) + "x{%02x}")(wire)}"',
     "text in brackets": lambda wire: " ".join(f"0x{byte:02X}({_shown(byte) or '.'})" for byte in wire),
     "the CRC apart": lambda wire: f"{wire[:-2].hex(' ')} CRC: {wire[-2:].hex(' ')}",
     "a length before": lambda wire: f"{len(wire)} {wire.hex(' ')}",
@@ -106,7 +108,7 @@ COLUMNS: Final = frozenset({"hexdump", "xxd", "tshark", "a sniffer", "a length b
 ENDS: Final = (
     "", r"\r", r"\r\n", "<CR>", "(CR)", "[CR]", "<cr>", "(cr)", "{CR}", "<CR><LF>", "[CR][LF]", " <CR>", " (cr)",
     "<0d>", "<0D>", "<0x0D>", "{0D}", "[0D]",
-    "[0d][0a]", "^M", "^M^J", "#13", "&#13;", "%0D", r"\x0D", r"\x0d", r"\015", r"\0D", r"\u000d",
+    "[0d][0a]", "$R", "$R$L", "^M", "^M^J", "#13", "&#13;", "%0D", r"\x0D", r"\x0d", r"\015", r"\0D", r"\u000d",
     "\u240d", "\u21b5",
 )  # fmt: skip
 """The carriage return of a frame that is written as text."""
@@ -199,6 +201,9 @@ DUMPS: Final[dict[str, Callable[[bytes], list[str]]]] = {
         *(f"{at / 1000:.9f},0x{wire[at]:02X},," for at in range(len(wire))),
     ],
     "sigrok": lambda wire: [f"uart-1: {byte:02X}" for byte in wire],
+    "PulseView": lambda wire: [
+        f"{1000 * at}-{1000 * at + 9} UART: TX data: {byte:02X}" for at, byte in enumerate(wire)
+    ],
     "interceptty": lambda wire: [f"> 0x{byte:02x} ({_shown(byte)})" for byte in wire],
 }
 """Spellings in which a frame takes several lines."""

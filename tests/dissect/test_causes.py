@@ -2,13 +2,17 @@
 
 import pytest
 
-from i7000 import DataFormat, Model, Protocol, TypeCode, modbus
+from i7000 import DataFormat, Model, Protocol, TypeCode, dcon, modbus
 from i7000.dissect import Known, hear_frame
 from tests.dissect.hearing import last_heard, line_of
 
 I_7018, I_7019R = Known(Model.I_7018), Known(Model.I_7019R, types=(TypeCode.K,))
 ONLY_RTU = ": these modules speak RTU"
 SIX = "+0025.1+0025.3+0024.9+0025.9-0003.2+0101.7"
+
+
+def sealed(body: str) -> str:
+    return dcon.seal(body.encode(), checksum=True)[:-1].decode()
 
 
 def hexed(digits: str) -> bytes:
@@ -160,6 +164,47 @@ def test_a_report_that_nothing_explains_has_no_cause() -> None:
     assert last_heard("#01", ">+0025.1+00", known=Known()).notes == ()
 
 
+def test_a_response_without_the_checksum_that_the_module_had_before_names_the_frame_that_had_one() -> None:
+    frames = [sealed("#010"), sealed(">+0025.1"), sealed("#010"), ">+0025.1"]
+
+    assert last_heard(*frames).notes == (
+        "without a checksum it is AnalogInput, but frame 2 had one; the checksum would be 8F",
+    )
+
+
+def test_a_response_with_a_checksum_that_the_module_did_not_have_before_names_the_frame_without() -> None:
+    frames = ["$012", "!010F0600", "#010", sealed(">+0025.1")]
+
+    assert last_heard(*frames, known=I_7018).notes == ("8F is the checksum of AnalogInput, but frame 2 had none",)
+
+
+def test_a_response_without_the_checksum_that_its_command_has_is_explained() -> None:
+    assert last_heard(sealed("$012"), "!010F0600", known=I_7018).notes == (
+        "without a checksum it is Configuration, but the command had one; the checksum would be BE",
+    )
+
+
+@pytest.mark.parametrize(
+    ("frame", "said"),
+    [
+        ("!010706001AF", "1AF is the whole sum: the checksum of Configuration is its last two digits, AF"),
+        ("!0107060001AF", "01AF is the whole sum: the checksum of Configuration is its last two digits, AF"),
+        ("!010706001AE", None),
+        ("!0107060002AF", None),
+    ],
+)
+def test_a_sum_of_three_digits_in_place_of_a_checksum_is_explained(frame: str, said: str | None) -> None:
+    notes = last_heard("$012", frame, known=I_7018).notes
+
+    assert notes == (() if said is None else (said,))
+
+
+def test_a_command_with_a_sum_of_three_digits_is_explained() -> None:
+    assert last_heard("$01M0D2", known=I_7018).notes == (
+        "0D2 is the whole sum: the checksum of ReadModuleName is its last two digits, D2",
+    )
+
+
 # --- addresses --------------------------------------------------------------------------------------------------------
 
 
@@ -209,3 +254,7 @@ def test_the_code_of_different_types_is_one_that_every_model_can_have() -> None:
     heard = last_heard("$012", "!01FF0600", known=Known(Model.I_7019R))
 
     assert (heard.notes, heard.contradictions) == ((), ())
+
+
+def test_what_has_no_more_characters_than_a_checksum_has_no_cause() -> None:
+    assert last_heard("$012", "01", known=I_7018).notes == ()

@@ -113,6 +113,10 @@ def test_a_number_before_a_frame_in_another_spelling_is_not_part_of_it(text: str
         ("01040000000131CB", bytes.fromhex("01040000000131CB")),
         (r"Response: '\x00\x1e\x04\x02\x0ba\xea' (00 1E 04 02 0B 61 EA) (7 bytes)", bytes.fromhex("001E04020B61EA")),
         (r"b'\x01\x04\x00a'", b"\x01\x04\x00a"),
+        (r"b'\x01\x83\x02\x81\xf1'", bytes.fromhex("01830281F1")),
+        (r'read(3, "\1\4\2%\264\332", 256) = 6', bytes.fromhex("01040225B4DA")),
+        ("RX\t8\t01 04 00 00 00 01 31 CB", bytes.fromhex("01040000000131CB")),
+        ("RX\t13\t01 04 00 00 00 01 31 CB", bytes.fromhex("01040000000131CB")),
         ("$0aM", b"$0aM\r"),
         ("#01 extra\\r", b"#01 extra\r"),
         ("$01zz", b"$01zz\r"),
@@ -218,3 +222,77 @@ def test_a_line_of_many_frames_and_columns_is_not_searched_for_repeats() -> None
     line = "$012 24 30 31 32 0D " * 300
 
     assert wires(line) == [b"$012\r"] * 600
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "it costs ~01 of that", "see @01", "mail @01, or ~01.", "$01 2 for one", "a price of $01", "about ~10zz",
+        "took ~100 ms", "took ~100ms", "within #10 s", "value >+1 of",
+    ],
+)  # fmt: skip
+def test_a_sentence_has_no_frame(text: str) -> None:
+    assert find(text) == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "wire"),
+    [
+        ("$01", b"$01\r"),
+        ("TX: $01", b"$01\r"),
+        ("12:00:01.5 TX $01", b"$01\r"),
+        ("12:00:01 -> $01zz 15 bytes", b"$01zz\r"),
+        ("write('$01')", b"$01\r"),
+        (r"the last was $01\r", b"$01\r"),
+    ],
+)
+def test_a_damaged_frame_in_the_place_of_one_is_found(text: str, wire: bytes) -> None:
+    assert [(it.kind, it.wire) for it in find(text)] == [(Kind.DAMAGED, wire)]
+
+
+@pytest.mark.parametrize(
+    ("text", "wire"),
+    [
+        ("&#35;01", b"#01\r"),
+        ("<td>&#x24;012&#13;&#10;</td>", b"$012\r"),
+        ("&#62;+0025.1", b">+0025.1\r"),
+        ("cmd=%21010F0600", b"!010F0600\r"),
+        ("cmd=%2301%0D", b"#01\r"),
+        ("%2301%0D", b"#01\r"),
+        ("GET /send?c=%24012%0D&x=1 HTTP/1.1", b"$012\r"),
+        ("c=%3E%2B0025.1%0D", b">+0025.1\r"),
+        ("c=%3e%2b0025.1-0003.2%2B0101.7%0d%0a", b">+0025.1-0003.2+0101.7\r"),
+        ("%250101050600%0D", b"%0101050600\r"),
+        ("%2323050600%0D", b"%2323050600\r"),
+        ("TX: %2101050600", b"%2101050600\r"),
+        ("%0101050600%0D", b"%0101050600\r"),
+    ],
+)
+def test_characters_as_html_and_urls_write_them_are_read(text: str, wire: bytes) -> None:
+    assert [(it.kind, it.wire) for it in find(text)] == [(Kind.DCON, wire)]
+
+
+def test_a_damaged_frame_in_a_url_is_read_as_it_was_sent() -> None:
+    assert wires("c=%7E01M%0D") == [b"~01M\r"]
+
+
+@pytest.mark.parametrize(
+    "before", ["#17 ", "@12:00 ", "1704067200 ", "1704067200123 ", "[pid  1234] ", "~5ms ", "50% ", "E01 ", "0x1F4 "]
+)
+@pytest.mark.parametrize("name", ["colons", "one word", "JSON, numbers", "modbus-tk", "octal", "libmodbus, requests"])
+def test_a_number_before_a_frame_is_no_frame(before: str, name: str) -> None:
+    spell = BYTES[name]
+
+    assert [wires(before + spell(wire)) for wire in MODBUS + DCON] == [[wire] for wire in MODBUS + DCON]
+
+
+@pytest.mark.parametrize("after", [" @12", " ~5ms", " #2", " 100%", " $ok", " -> module 01", " // 01"])
+def test_a_number_behind_a_frame_is_no_frame(after: str) -> None:
+    found = [find(REQUEST.hex(":") + after), find("!01050600\\r" + after)]
+
+    assert [[it.wire for it in one] for one in found] == [[REQUEST], [b"!01050600\r"]]
+
+
+def test_a_command_before_its_response_is_no_counter() -> None:
+    assert wires("#01 >+0025.1") == wires("#01 RX: 3E 2B 30 30 32 35 2E 31 0D") == [b"#01\r", b">+0025.1\r"]
+    assert wires("#17 is polled") == [b"#17\r"]

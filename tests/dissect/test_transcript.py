@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from i7000 import modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
 from tests.dissect.frames import DCON, MODBUS, REQUEST, RESPONSE
@@ -108,3 +109,51 @@ def test_parts_longer_than_a_frame_are_given_up_from_the_first_on() -> None:
     found = pieces_of(begun, *["00 " * 100] * 3, "RX 01 04 00 00", "00 01 31 CA")
 
     assert (found[-1].number, found[-1].last, found[-1].wire) == (5, 6, REQUEST)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["level=01", "04 02 0B 61 7F E8"],
+        ["level=01", "RX 04 02 0B 61 7F E8"],
+        ["retry 01 04", "RX 02 0B 61 7F E8"],
+        ["01 04 02 0B 61 7F", "temperature E8"],
+        ["step 3 of 01", "12:00:01 04 02 0B 61 7F E8"],
+    ],
+)
+def test_a_number_in_a_sentence_is_no_part_of_the_frame_in_the_next_line(lines: list[str]) -> None:
+    assert Kind.MODBUS not in [piece.kind for piece in pieces_of(*lines)]
+    assert all(piece.number == piece.last for piece in pieces_of(*lines))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["uart-1: 01", "uart-1: 04", "uart-1: 02 0B 61 7F E8"],
+        ["12:00:01 RX: 01", "12:00:01 RX: 04 02 0B 61 7F E8"],
+        ["Data: 01 04 02", "      0B 61 7F E8"],
+        ["RX: 01", "    04 02 0B 61 7F E8"],
+    ],
+)
+def test_a_frame_in_lines_that_begin_alike_is_put_together(lines: list[str]) -> None:
+    (piece,) = pieces_of(*lines)
+
+    assert (piece.kind, piece.wire) == (Kind.MODBUS, RESPONSE)
+
+
+def test_a_damaged_frame_in_decimal_is_found_whole() -> None:
+    (piece,) = pieces_of("<-1-4-16-7-208-7-209-10-13-28-37-180-218")
+
+    assert (piece.kind, piece.wire) == (Kind.DAMAGED, bytes((1, 4, 16, 7, 208, 7, 209, 10, 13, 28, 37, 180, 218)))
+
+
+@pytest.mark.parametrize("line", ["total 10 16 28 37 180 in all", "of 180, 10, 16, 28, 37 in all"])
+def test_numbers_in_decimal_of_which_a_part_could_be_hex_are_no_damaged_frame(line: str) -> None:
+    assert [piece.kind for piece in pieces_of(line)] == [None]
+
+
+@pytest.mark.parametrize("name", ["hexdump -C", "xxd", "tshark -x", "Format-Hex"])
+def test_the_last_byte_of_a_long_dump_belongs_to_the_frame_whatever_its_offset(name: str) -> None:
+    wire = modbus.seal(bytes((1, 4, 156, *range(156))))
+
+    assert [it.wire for it in pieces_of(*DUMPS[name](wire)) if it.kind] == [wire]

@@ -12,14 +12,13 @@ from hypothesis import strategies as st
 
 from i7000 import Profile, dcon, host, modbus
 from i7000.host import (
-    AnyCommand,
     Bus,
     Event,
+    Query,
     Transmit,
     next_deadline,
     receive,
     send,
-    wake,
 )
 
 Draw = Callable[[st.SearchStrategy[Any]], Any]
@@ -32,7 +31,7 @@ MOST_STEPS = 200
 class Asked:
     """A request, and what the module answers to its n-th transmission; None: nothing, it is a broadcast."""
 
-    command: AnyCommand
+    command: Query[Any]
     profile: Profile
     answer: Callable[[int], Any] | None
 
@@ -95,9 +94,9 @@ class Line:
 
     def ask(self, asked: Asked) -> Ended:
         """Drive the host until the request has its outcome, and hand over what comes until the next."""
-        self.bus, wire = send(self.bus, asked.command, asked.profile, self.now)
+        self.bus = send(self.bus, asked.command, asked.profile, self.now)
         sent: list[Any] = []
-        intact = wire != b"" and self.carry(wire, asked, sent)
+        intact = False
         outcomes: list[Event[Any]] = []
         for _ in range(MOST_STEPS):
             for event in self.step():
@@ -126,13 +125,13 @@ class Line:
         """Move the time on until bytes arrive or the next deadline of the host."""
         deadline = next_deadline(self.bus)
         assert deadline is not None
-        assert wake(self.bus, self.now) == (self.bus, ())
+        assert deadline <= self.now or receive(self.bus, b"", self.now) == (self.bus, ())
         if self.coming and self.coming[0][0] <= deadline:
             self.now, data = self.coming.pop(0)
             self.bus, events = receive(self.bus, data, self.now)
         else:
-            self.now = deadline
-            self.bus, events = wake(self.bus, self.now)
+            self.now = max(self.now, deadline)
+            self.bus, events = receive(self.bus, b"", self.now)
         self.events += events
         return events
 

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 from i7000 import BaudRate, LineSettings, Model, Profile, dcon, modbus
 from i7000.host import (
     Answered,
-    AnyCommand,
     Bus,
     Declined,
     Late,
     Policy,
+    Query,
     Sent,
     TimedOut,
     next_deadline,
@@ -48,7 +48,7 @@ def words(address: int) -> Asked:
     )
 
 
-def answered(command: AnyCommand, response: Any, profile: Profile = RTU) -> Asked:
+def answered(command: Query[Any], response: Any, profile: Profile = RTU) -> Asked:
     return Asked(command, profile, lambda _: response)
 
 
@@ -150,7 +150,7 @@ def test_a_line_that_is_never_silent_ends_every_request_all_the_same(
 
     for _ in range(3):
         began = now
-        bus, _wire = send(bus, asked.command, asked.profile, now)
+        bus = send(bus, asked.command, asked.profile, now)
         while next_deadline(bus) is not None:
             now += 0.001
             bus, _events = receive(bus, babble, now)

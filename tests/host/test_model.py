@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from i7000 import Model, Profile, Protocol, ReportSettings, Unit, dcon, modbus
 from i7000.device import Signals, State, factory, power_on, step
-from i7000.host import Answered, AnyCommand, Bus, Declined, Policy, TimedOut
+from i7000.host import Answered, Bus, Declined, Policy, Query, TimedOut
 from i7000.strategies.dcon import commands
 from i7000.strategies.modbus import requests as modbus_requests
 from tests.host.line import Asked, Line, encode
@@ -33,7 +33,7 @@ def module(address: int) -> State:
     return power_on(evolve(eeprom, address=address, protocol=protocol, report_settings=settings), now=0.0)
 
 
-def modules() -> Callable[[AnyCommand], Asked]:
+def modules() -> Callable[[Query[Any]], Asked]:
     """Three modules, whose inputs are others each time that one is asked."""
     states = {address: module(address) for address in (0x01, 0x02, RTU)}
 

@@ -37,7 +37,7 @@ def test_a_frame_of_any_other_length_is_refused(length: int) -> None:
 
 
 def test_the_error_for_a_wrong_crc_has_the_right_one() -> None:
-    with pytest.raises(DecodeError, match=r"crc at byte 6 of .*; allowed: f1cc \(manual 3\)") as caught:
+    with pytest.raises(DecodeError, match=r"crc at byte 6 of .*; allowed: F1 CC \(manual 3\)") as caught:
         unseal(bytes.fromhex("010400000008f1cd"))
 
     assert Fault.CRC is caught.value.fault

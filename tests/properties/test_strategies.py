@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import i7000
 from i7000 import DataFormat, Fault, Model, Noise, Profile, Reading, Status, TypeCode, dcon, device, host, modbus
+from i7000.host import procedures
 from i7000.strategies import errors, firmwares, line_settings, profiles, readings, report_settings, word_readings
 from i7000.strategies.dcon import (
     DAMAGES,
@@ -31,7 +32,7 @@ from i7000.strategies.dcon import (
 
 CLASSES = [
     kind
-    for module in (i7000, dcon, modbus, device, host)
+    for module in (i7000, dcon, modbus, device, host, procedures)
     for kind in (getattr(module, name) for name in module.__all__)
     if isinstance(kind, type)
 ]

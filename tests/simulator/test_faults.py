@@ -1,16 +1,18 @@
 """What lines do to bytes."""
 
 from random import Random
+from typing import Any
 
 import pytest
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import InvalidValueError
-from i7000.simulator.faults import Faults, Piece, Transfer
+from i7000 import InvalidValueError, Protocol, dcon, modbus
+from i7000.simulator.faults import Exchange, Faults, Piece, Transfer, Way
 
 CHARACTER = 10 / 9600
+LATE_OF_SEED_3 = [0, 5, 6, 9, 15]
 ANSWER = b">" + b"+025.12" * 8 + b"\r"
 
 
@@ -83,3 +85,151 @@ def test_what_is_no_probability_and_no_time_is_refused(name: str, value: float) 
         Faults(**{name: value})  # type: ignore[arg-type]
 
     assert name == refused.value.field
+
+
+# --- answers that are lost, cut, repeated or replaced -----------------------------------------------------------------
+
+
+DCON, RTU = Protocol.DCON, Protocol.MODBUS_RTU
+NAMED = Exchange(b"$01M\r", DCON, earlier=b"!01FF\r")
+COILS = Exchange(modbus.encode(modbus.ReadCoils(1, 0, 8)), RTU)
+
+
+def arrived(faults: Faults, answer: bytes, exchange: Exchange | None = None, seed: int = 0) -> tuple[bytes, str]:
+    transfer = faults.delivered(answer, CHARACTER, Random(seed), exchange)
+    return b"".join(piece.wire for piece in transfer.pieces), ", ".join(transfer.faults)
+
+
+def test_a_lost_answer_arrives_in_no_piece() -> None:
+    assert Faults(silent=1.0).delivered(ANSWER, CHARACTER, Random(0)) == Transfer((), ("the answer is lost",))
+
+
+def test_a_duplicate_follows_at_once() -> None:
+    assert arrived(Faults(duplicate=1.0), ANSWER) == (ANSWER * 2, "sent twice")
+
+
+@given(st.binary(min_size=2, max_size=300), st.integers(0, 1000))
+def test_a_truncated_answer_has_a_beginning_and_no_end(answer: bytes, seed: int) -> None:
+    wire, told = arrived(Faults(truncate=1.0), answer, seed=seed)
+
+    assert answer.startswith(wire)
+    assert 0 < len(wire) < len(answer)
+    assert told == f"cut after {len(wire)} bytes"
+
+
+def test_one_byte_cannot_be_truncated() -> None:
+    assert arrived(Faults(truncate=1.0), b"x") == (b"x", "")
+
+
+@pytest.mark.parametrize(
+    ("checksum", "refused"), [(False, b"?01\r"), (True, dcon.seal(b"?01", checksum=True))], ids=["plain", "checksum"]
+)
+def test_a_refusal_replaces_an_answer(*, checksum: bool, refused: bytes) -> None:
+    exchange = evolve(NAMED, checksum=checksum)
+
+    assert arrived(Faults(refuse=1.0), b"!017018\r", exchange) == (refused, "refused")
+
+
+def test_an_exception_has_the_code_that_was_chosen() -> None:
+    wire, told = arrived(Faults(refuse=1.0, refuse_code=6), b"", COILS)
+
+    assert wire == modbus.seal(b"\x01\x81\x06")
+    assert told == "refused with exception 06"
+
+
+def test_an_earlier_answer_replaces_an_answer_if_there_is_one() -> None:
+    assert arrived(Faults(replay=1.0), b"!017018\r", NAMED) == (b"!01FF\r", "an earlier answer")
+    assert arrived(Faults(replay=1.0), b"!017018\r", evolve(NAMED, earlier=None)) == (b"!017018\r", "")
+
+
+@pytest.mark.parametrize(
+    ("answer", "exchange", "other"),
+    [
+        (b"!017018\r", NAMED, b"!027018\r"),
+        (b"?01\r", NAMED, b"?02\r"),
+        (b"!FF7018\r", Exchange(b"$FFM\r", DCON), b"!097018\r"),
+        (dcon.seal(b"!017018", checksum=True), evolve(NAMED, checksum=True), dcon.seal(b"!027018", checksum=True)),
+        (modbus.seal(b"\x01\x01\x01\xff"), COILS, modbus.seal(b"\x02\x01\x01\xff")),
+        (modbus.seal(b"\xf7\x01\x01\xff"), Exchange(b"\xf7\x01", RTU), modbus.seal(b"\x01\x01\x01\xff")),
+    ],
+)
+def test_a_misaddressed_answer_is_well_formed(answer: bytes, exchange: Exchange, other: bytes) -> None:
+    wire, told = arrived(Faults(misaddress=1.0), answer, exchange)
+
+    assert other == wire
+    assert told.startswith("with address 0")
+
+
+@pytest.mark.parametrize("answer", [ANSWER, b"", b"!", b"\x01\x02\x03\x04"])
+@pytest.mark.parametrize(
+    "exchange", [None, NAMED, Exchange(b"$1xM\r", DCON), Exchange(b"", RTU), Exchange(b"\x05", RTU)]
+)
+def test_an_answer_without_an_address_is_not_misaddressed(answer: bytes, exchange: Exchange | None) -> None:
+    assert arrived(Faults(misaddress=1.0), answer, exchange) == (answer, "")
+
+
+@pytest.mark.parametrize("request_", [b"", b"$", b"$1", b"$zz", b"$0a", b"$ 1"])
+def test_an_answer_to_no_address_is_not_refused(request_: bytes) -> None:
+    assert arrived(Faults(refuse=1.0), b"!01\r", Exchange(request_, DCON)) == (b"!01\r", "")
+
+
+@given(st.binary(max_size=80), st.binary(max_size=20), st.sampled_from(Protocol), st.integers(0, 99))
+def test_any_bytes_are_delivered_with_any_fault(answer: bytes, request_: bytes, protocol: Protocol, seed: int) -> None:
+    every = {"silent", "refuse", "replay", "misaddress", "truncate", "duplicate", "drop", "flip", "noise", "late"}
+    faults = Faults(lumps=True, **dict.fromkeys(every, 0.5))  # type: ignore[arg-type]
+    exchange = Exchange(request_, protocol, seed % 2 == 0, b"!01\r")
+
+    one, other = (faults.delivered(answer, CHARACTER, Random(seed), exchange) for _ in range(2))
+
+    assert one == other
+
+
+def test_a_new_fault_leaves_the_others_of_a_seed_as_they_were() -> None:
+    """The delays that ``late=0.25:0.9 --seed 3`` has had since the first release."""
+    faults, chance = Faults(late=0.25, late_by=0.9), Random(3)
+
+    late = [number for number in range(20) if faults.delivered(ANSWER, CHARACTER, chance, NAMED).pieces[0].after]
+
+    assert late == LATE_OF_SEED_3
+
+
+# --- in one direction, for one address --------------------------------------------------------------------------------
+
+
+def test_a_fault_of_one_direction_is_not_in_the_other() -> None:
+    faults = Faults().at(Way.TO, drop=1.0).at(Way.FROM, flip=1.0, late=1.0)
+
+    assert (faults.requests.drop, faults.requests.flip, faults.requests.late) == (1.0, 0.0, 0.0)
+    assert (faults.answers(1).drop, faults.answers(1).flip, faults.answers(None).late) == (0.0, 1.0, 1.0)
+
+
+def test_the_closest_value_counts() -> None:
+    faults = Faults(late=0.1, drop=0.1).at(Way.FROM, late=0.2).at(0x02, late=0.0)
+
+    assert [faults.answers(address).late for address in (1, 2, None)] == [0.2, 0.0, 0.2]
+    assert faults.answers(2).drop == faults.requests.drop == 0.1
+
+
+def test_the_last_value_for_one_place_counts() -> None:
+    assert Faults().at(1, late=0.5).at(1, late=0.7) == Faults().at(1, late=0.7)
+
+
+@pytest.mark.parametrize(
+    ("where", "values", "field"),
+    [
+        (Way.TO, {"late": 1.0}, "fault"),
+        (Way.TO, {"echo": True}, "fault"),
+        (1, {"echo": True}, "fault"),
+        (1, {"scoped": 1}, "fault"),
+        (1, {"drop": 2.0}, "drop"),
+        (1, {"lumps": 1}, "lumps"),
+        (1, {"refuse_code": 256}, "refuse_code"),
+        (256, {"drop": 1.0}, "where"),
+        ("to", {"drop": 1.0}, "where"),
+    ],
+)
+def test_what_cannot_be_there_is_refused(where: Any, values: dict[str, Any], field: str) -> None:
+    with pytest.raises(InvalidValueError) as refused:
+        Faults().at(where, **values)
+
+    assert field == refused.value.field

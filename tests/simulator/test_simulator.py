@@ -10,13 +10,14 @@ from time import monotonic, sleep
 import pytest
 from attrs import evolve
 
-from i7000 import Model, Noise, Profile, Protocol, Unit, modbus
+from i7000 import Model, Noise, Profile, Protocol, ReportSettings, Unit, dcon, modbus
 from i7000.device import Eeprom, Signal
-from i7000.simulator.faults import Faults
+from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
+from i7000.simulator.faults import Faults, Way
 from i7000.simulator.memory import MemoryFileError
-from i7000.simulator.observed import Observed
+from i7000.simulator.observed import Change, Observed
 from i7000.simulator.pseudo_terminal import open_pty
-from i7000.simulator.simulator import MOST_LATE_BYTES, MOST_LATE_PIECES, UNREAD, Host, Simulator
+from i7000.simulator.simulator import UNREAD, Host, Simulated, Simulator
 from i7000.simulator.sources import Fixed, Sources
 from i7000.simulator.tcp import listen
 from tests.simulator.running import I_7018, SAID, TRANSPORTS, ask, connected, module, port, running
@@ -264,6 +265,46 @@ def test_of_what_is_lost_altogether_not_all_is_remembered() -> None:
     assert len(told.faults) == 16
 
 
+def conversed(faults: Faults, *frames: bytes, modules: Sequence[Simulated] = (I_7018,)) -> list[bytes]:
+    """What arrives after each frame that a host sends."""
+    answers: list[bytes] = []
+
+    async def converse() -> None:
+        host = Host(Simulator(modules, faults=faults), "host", answers.append)
+        for frame in frames:
+            host.receive(frame)
+
+    asyncio.run(converse())
+    return answers
+
+
+def test_a_fault_of_one_address_leaves_the_other_modules_alone() -> None:
+    other = module(Model.I_7017, address=2)
+
+    answers = conversed(Faults().at(0x01, silent=1.0), b"$01M\r", b"$02M\r", modules=(I_7018, other))
+
+    assert answers == [b"!027017\r"]
+
+
+def test_the_answer_to_an_earlier_command_is_that_to_the_last_different_one() -> None:
+    answers = conversed(Faults(replay=1.0), b"$01M\r", b"$01M\r", b"$016\r", b"$016\r", b"$01M\r")
+
+    assert answers == [b"!017018\r", b"!017018\r", b"!017018\r", b"!017018\r", b"!01FF\r"]
+
+
+def test_a_refusal_has_the_checksum_of_its_module() -> None:
+    checked = module(Model.I_7018, report_settings=ReportSettings(checksum=True))
+
+    answers = conversed(Faults(refuse=1.0), dcon.seal(b"$01M", checksum=True), modules=(checked,))
+
+    assert answers == [dcon.seal(b"?01", checksum=True)]
+
+
+def test_requests_can_be_lost_while_answers_are_not() -> None:
+    assert conversed(Faults().at(Way.FROM, drop=1.0), b"$01M\r") == [b""]
+    assert conversed(Faults().at(Way.TO, drop=1.0), b"$01M\r") == []
+
+
 # --- what modules remember --------------------------------------------------------------------------------------------
 
 
@@ -344,6 +385,49 @@ def test_a_power_cycle_leaves_what_is_stored() -> None:
 
         assert ask(opened, b"$01M\r", 7) == b"!01ABC\r"
         assert ask(opened, b"$010\r", 4) == b"?01\r"
+
+
+def test_power_is_cycled_at_one_place_only() -> None:
+    changed: list[Change] = []
+
+    async def cycle() -> tuple[bool, ...]:
+        simulator = Simulator([I_7018, module(Model.I_7017, address=2)], watch=changed.append)
+        before = simulator.bus.modules
+        simulator.power_cycle(simulator.places(2))
+        return tuple(one is other for one, other in zip(before, simulator.bus.modules, strict=True))
+
+    assert asyncio.run(cycle()) == (True, False)
+    assert [(it.address, it.what) for it in changed] == [(2, ("power cycle",))]
+
+
+def test_changes_of_settings_are_reported_after_they_are_stored_and_answered() -> None:
+    told: list[object] = []
+
+    async def rename() -> None:
+        simulator = Simulator([I_7018], store=told.append, watch=told.append)
+        Host(simulator, "host", told.append).receive(b"~01OABC\r")
+
+    asyncio.run(rename())
+
+    stored, answer, change = told
+    assert isinstance(stored, list)
+    assert isinstance(change, Change)
+    assert (change.address, change.model, change.what) == (1, Model.I_7018, ("name 7018 -> ABC",))
+    assert answer == b"!01\r"
+
+
+def test_the_init_switch_is_read_at_power_on() -> None:
+    async def switch() -> list[tuple[bool, int]]:
+        simulator = Simulator([I_7018])
+        found = []
+        for on in (True, False):
+            simulator.switch_init(0, on=on)
+            found.append((simulator.bus.modules[0].ram.init_switch, simulator.bus.modules[0].ram.address))
+            simulator.power_cycle()
+            found.append((simulator.bus.modules[0].ram.init_switch, simulator.bus.modules[0].ram.address))
+        return found
+
+    assert asyncio.run(switch()) == [(True, 1), (True, 0), (False, 0), (False, 1)]
 
 
 def test_a_module_with_the_init_switch_set_has_address_00() -> None:

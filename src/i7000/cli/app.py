@@ -5,12 +5,14 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import Literal
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, UnusedCliTokensError
 
 from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
+from i7000.cli.listen import listen
+from i7000.cli.proxy import proxy
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -28,7 +30,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, simulate):
+for _command in (decode, encode, commands, registers, errata, listen, simulate, proxy):
     app.command(_command)
 
 
@@ -50,16 +52,23 @@ def run(arguments: Sequence[str] | None) -> int:
     except (CycloptsError, UsageError, OSError) as error:
         with suppress(OSError, SystemExit):  # The terminal may be gone.
             Printer().error(_words(error))
-        return 2
+        return error.code if isinstance(error, UsageError) else 2
     except ModuleNotFoundError as missing:
-        Printer().error(f'no module {missing.name}; this needs: pip install "i7000[simulator]"')
+        extra = "simulator" if missing.name in _OF_THE_SIMULATOR else "cli"
+        Printer().error(f'no module {missing.name}; this needs: pip install "i7000[{extra}]"')
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
+
+
+_OF_THE_SIMULATOR = ("cattrs", "filelock")
+"""What only an EEPROM file needs."""
 
 
 def _words(error: Exception) -> str:
     """Return what is wrong, of a file with its name first."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror if error.filename is None else f"{error.filename}: {error.strerror}"
+    if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
+        return f"unexpected argument {error.unused_tokens[0]!r}: put what has blanks in quotes"
     return str(error)

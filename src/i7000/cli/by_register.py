@@ -19,7 +19,7 @@ from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
 
-__all__ = ["AREAS", "held", "is_of_registers", "is_reading"]
+__all__ = ["AREAS", "NUMBER", "area_words", "held", "is_of_registers", "is_reading"]
 
 AREAS: Mapping[type[Any], Area] = {
     modbus.ReadCoils: Area.COIL,
@@ -35,6 +35,10 @@ _SEVERAL: Mapping[type[Message], type[Message]] = {
     modbus.WriteSingleCoil: modbus.WriteMultipleCoils,
     modbus.WriteSingleRegister: modbus.WriteMultipleRegisters,
 }
+NUMBER = re.compile("[0134][0-9]{4}|[134][0-9]{5}")
+"""A number of the manual; in other programs it may have six digits."""
+_PRINTED = 9999
+"""Addresses below this one have a number of five digits in the manual."""
 _PLACES = ("start", "coil", "register")
 """The fields that hold an address."""
 
@@ -70,8 +74,7 @@ def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | No
         found["count"] = registers.read(1, row.name).count
     if force:
         return found
-    if re.fullmatch("[0134][0-9]{4}", text):
-        raise UsageError(f"{field}: {_manual(kind, field, text, registers)}")
+    _check_address(kind, field, text, found[field], registers)
     if "count" in given:
         found["count"] = integer(given.pop("count"))
     for value in given.keys() & {"value", "values"}:
@@ -89,8 +92,17 @@ def _is_number(text: str) -> bool:
 # --- addresses --------------------------------------------------------------------------------------------------------
 
 
-def _words(area: Area) -> str:
+def area_words(area: Area) -> str:
+    """Return the name of what an area has, such as ``holding register``."""
     return area.name.lower().replace("_", " ")
+
+
+def _check_address(kind: type[Message], field: str, text: str, address: int, registers: RegisterMap) -> None:
+    """Refuse a number of the manual in place of an address, and what no frame can have."""
+    if NUMBER.fullmatch(text):
+        raise UsageError(f"{field}: {_manual(kind, field, text, registers)}")
+    if not 0 <= address <= 0xFFFF:
+        raise InvalidValueError(field, address, "0..65535", kind.section)
 
 
 def _find(kind: type[Message], field: str, name: str, registers: RegisterMap) -> Register:
@@ -103,21 +115,23 @@ def _find(kind: type[Message], field: str, name: str, registers: RegisterMap) ->
         raise UsageError(f"{field}: {name} of {model} is {_article(others[0].area)}, not {_article(area)}")
     if found is None:
         names = sorted({row.name for row in registers if row.area is area})
-        raise UsageError(f"{field}: {model} has no {_words(area)} {name!r}: {', '.join(names)}{near(name, names)}")
+        hint = near(name, names) or f": its {area_words(area)}s are {', '.join(names)}"
+        raise UsageError(f"{field}: {model} has no {area_words(area)} {name!r}{hint}")
     return found
 
 
 def _article(area: Area) -> str:
-    return f"{'an' if area is Area.INPUT_REGISTER else 'a'} {_words(area)}"
+    return f"{'an' if area is Area.INPUT_REGISTER else 'a'} {area_words(area)}"
 
 
 def _manual(kind: type[Message], field: str, text: str, registers: RegisterMap) -> str:
     """Return why a number of the manual is not an address, and which address is meant."""
     area, address = Area(int(text[0])), int(text[1:]) - 1
     row = _at(registers, area, address)
-    what = f"{text} is the number of {row.name} in the manual" if row else f"{text} is a number of the manual"
+    what = f"{text} is the number of {row.name if row else _article(area)}"
     if area is not AREAS[kind]:
-        return f"{what}, {_article(area)} with the address {address}; {kind.__name__} is about {_words(AREAS[kind])}s"
+        kinds = f"{'reads' if is_reading(kind) else 'writes'} {area_words(AREAS[kind])}s"
+        return f"{what} at address {address} of the {area_words(area)}s; {kind.__name__} {kinds}"
     return f"{what}; its address in frames is {field}={address}" + (
         f" or {field}={row.name}" if row and row.address == address and (row.count == 1 or field == "start") else ""
     )
@@ -137,7 +151,8 @@ def _row(kind: type[Message], address: int, registers: RegisterMap) -> Register:
     row = _at(registers, area, address)
     if row is None:
         number = Register("", area, address).number
-        reason = f"{model} has no {_words(area)} at address {address}, {number} in the manual"
+        printed = f", {number} in the manual" if address < _PRINTED else ""
+        reason = f"{model} has no {area_words(area)} at address {address}{printed}"
         raise InvalidValueError("address", address, f"i7000 registers --model {model} lists what it has", "", reason)
     reads = is_reading(kind)
     if row.access is (Access.WRITE if reads else Access.READ):
@@ -159,7 +174,7 @@ def _written(kind: type[Message], start: int, texts: list[str], registers: Regis
     if "values" in parts_of(kind):
         return tuple(items)
     if len(items) > 1:
-        raise UsageError(f"value: {len(items)} registers are written here: {_SEVERAL[kind].__name__} does that")
+        raise UsageError(f"value: {kind.__name__} writes one, and this is {len(items)}: use {_SEVERAL[kind].__name__}")
     return items[0]
 
 

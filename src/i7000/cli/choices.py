@@ -5,7 +5,7 @@ from enum import Enum
 from typing import Any
 
 from i7000 import Filter, Protocol
-from i7000.cli.words import member
+from i7000.cli.words import UsageError, member, near
 
 __all__ = ["FILTERS", "PROTOCOLS", "chosen"]
 
@@ -21,4 +21,11 @@ def chosen(text: str, kind: type[Enum]) -> Any:  # noqa: ANN401 - a member of it
     ('MODBUS_RTU', 'MODBUS_RTU', 'REJECT_50_HZ')
     """
     short = _SHORT.get(kind, {})
-    return short[text.lower()] if text.lower() in short else member(text, kind)
+    if text.lower() in short:
+        return short[text.lower()]
+    try:
+        return member(text, kind)
+    except UsageError:
+        if not short:
+            raise
+        raise UsageError(f"{text!r} is not one of {', '.join(short)}{near(text, short)}") from None

@@ -1,12 +1,12 @@
 """``i7000 commands``: what a model can do."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from i7000 import Model, Profile, dcon, modbus
-from i7000.cli.explain import AnyCommand, command_explained, commands_named
+from i7000 import Model, Profile, modbus
+from i7000.cli.explain import KINDS, AnyCommand, command_explained, commands_named
 from i7000.cli.explain_text import command_text
 from i7000.cli.options import Json, Module
 from i7000.cli.records import Record, command_record
@@ -17,12 +17,6 @@ __all__ = ["commands"]
 
 _MOST_EXPLAINED = 4
 """If a NAME fits more commands, they are listed."""
-
-_KINDS: Mapping[str, Sequence[AnyCommand]] = {
-    "auto": (*dcon.COMMANDS, *modbus.REQUESTS),
-    "dcon": dcon.COMMANDS,
-    "rtu": modbus.REQUESTS,
-}
 
 
 def commands(
@@ -57,13 +51,16 @@ def commands(
     settings), `minimum`, `maximum`, `unit`, `scale`, `meaning`), `pause` (as in spec), `broadcast`, `exceptions`,
     `examples` and `refused` (vectors of spec), `errata_explained`.
     """
-    known = Module(model=() if model is None else (model,), firmware=firmware).known()
+    known = Module(model=() if model is None else (model,), firmware=firmware).known(
+        "rtu" if protocol == "rtu" else "dcon"
+    )
     profiles = [known.default] if known.default else [Profile(one, firmware=known.firmware) for one in Model]
-    kinds = _KINDS[protocol] if name or protocol != "auto" else dcon.COMMANDS
-    chosen = commands_named(name, kinds) if name else kinds
+    listed = KINDS["dcon" if protocol == "auto" else protocol]
+    chosen = listed if name is None else commands_named(name, protocol)
     having = {kind: [it.model.value for it in profiles if kind.availability not in it.refused] for kind in chosen}
     if not any(having.values()):
-        raise UsageError(f"{model} has no {' or '.join(sorted({kind.__name__ for kind in chosen}))}")
+        names = sorted({kind.__name__ for kind in chosen})
+        raise UsageError(f"{model} has no {' or '.join(names)}: {_scopes(chosen)}")
     shown: set[str] = set()
     printer = Printer(json=json)
     for kind, models in having.items():
@@ -73,6 +70,14 @@ def commands(
         elif models:
             printer.record(*_listed(kind, models))
     return 0
+
+
+def _scopes(kinds: Iterable[AnyCommand]) -> str:
+    """Return which models have commands; of Modbus with that word, if there are others."""
+    scopes: dict[bool, dict[str, None]] = {}
+    for kind in kinds:
+        scopes.setdefault(issubclass(kind, modbus.Request), {})[kind.availability.scope] = None
+    return ", in Modbus ".join(", ".join(found) for found in scopes.values())
 
 
 def _listed(command: AnyCommand, models: list[str]) -> tuple[Record, Iterable[Line]]:

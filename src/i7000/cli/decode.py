@@ -12,9 +12,8 @@ from attrs import frozen
 from cyclopts import Parameter
 
 from i7000.cli.frame_text import frame_lines
-from i7000.cli.numbers import integer
-from i7000.cli.options import LAST_ADDRESS, PROTOCOLS, UNKNOWN, Json, Module
-from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_stream
+from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
+from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_recording, of_stream
 from i7000.cli.records import json_of
 from i7000.cli.schema import SCHEMA
 from i7000.cli.source import LONGEST_LINE, Counted, Lines, chunks
@@ -22,6 +21,7 @@ from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
 from i7000.dissect import Knowledge
 from i7000.dissect.capture import is_capture
+from i7000.recording import is_recording
 from i7000.settings import Protocol
 
 __all__ = ["decode"]
@@ -31,16 +31,13 @@ def decode(  # noqa: PLR0913 - each of them is an option
     *frames: Annotated[str, Parameter(help="Frames to decode. Without any, --file or standard input is read.")],
     file: Annotated[
         Path | None,
-        Parameter(help="A log, pcap or pcapng file to decode; - is standard input.", allow_leading_hyphen=True),
+        Parameter(help="A log, a recording, or a pcap or pcapng file; - is standard input.", allow_leading_hyphen=True),
     ] = None,
     raw: Annotated[bool, Parameter(help="The input is the bytes of the line, not a log of them.", negative="")] = False,
     protocol: Annotated[
         Literal["auto", "dcon", "rtu"], Parameter(help="The protocol on the line; auto recognizes both, even mixed.")
     ] = "auto",
-    address: Annotated[
-        tuple[str, ...],
-        Parameter(help="Show only the module at this address. Example: --address 2.", negative="", show_default=False),
-    ] = (),
+    address: Annotated[Texts, Parameter(help="Show only the module at this address. Example: --address 2.")] = (),
     strict: Annotated[bool, Parameter(help="Exit with 1 if a line has no frame.", negative="")] = False,
     json: Json = False,
     schema: Annotated[bool, Parameter(help="Print the JSON Schema of --json and exit.", negative="")] = False,
@@ -67,18 +64,11 @@ def decode(  # noqa: PLR0913 - each of them is an option
         sys.stdout.write(f"{SCHEMA}\n")
         return 0
     knowledge = module.knowledge(protocol)
-    shown = frozenset(map(_address, address))
+    shown = frozenset(map(address_of, address))
     printer = Printer(json=json)
     with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
         tally = _print(reads, knowledge, shown, printer)
     return tally.code(printer, lines.long if lines else Counted(), strict=strict)
-
-
-def _address(text: str) -> int:
-    number = integer(text)
-    if not 0 <= number <= LAST_ADDRESS:
-        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
-    return number
 
 
 # --- what is decoded --------------------------------------------------------------------------------------------------
@@ -108,7 +98,8 @@ def _reads(
             yield of_capture(chunks(stream, printer.flush), knowledge, protocol), None
         else:
             lines = Lines(stream, printer.flush)
-            yield of_lines(((number, _text(line)) for number, line in lines), knowledge, protocol), lines
+            of = of_recording if is_recording(stream.peek(32)) else of_lines
+            yield of(((number, _text(line)) for number, line in lines), knowledge, protocol), lines
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """A command, a register or an erratum in full: a record of all that ``spec/`` and the classes say about it."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from i7000 import (
@@ -16,55 +16,70 @@ from i7000 import (
     modbus,
 )
 from i7000.cli import facts
-from i7000.cli.by_register import AREAS, is_reading
+from i7000.cli.by_register import AREAS, NUMBER, area_words, is_reading
 from i7000.cli.numbers import integer, is_hex
 from i7000.cli.records import Record, command_record, parts_of, register_record
-from i7000.cli.words import UsageError, near
+from i7000.cli.words import UsageError, near, plain
 from i7000.message import Message
 
-__all__ = ["AnyCommand", "command_explained", "commands_named", "errata_named", "registers_explained"]
+__all__ = ["KINDS", "AnyCommand", "command_explained", "commands_named", "errata_named", "registers_explained"]
 
 _EXAMPLES = 2
 """The number of examples shown for accepted frames."""
-
-
-def _plain(name: str) -> str:
-    """Return a name in lower case, without separators."""
-    return re.sub(r"[-_\s]", "", name).lower()
+_SECTIONS = {"dcon": "those of DCON are 2.1 to 2.43", "rtu": "those of Modbus are 3.1 to 3.4"}
+_SECTIONS["auto"] = f"{_SECTIONS['dcon']}, {_SECTIONS['rtu']}"
+_SECTION = re.compile(r"[0-9]+\.[0-9]+(\.[0-9]+)*")
 
 
 # --- commands ---------------------------------------------------------------------------------------------------------
 
 AnyCommand = type[dcon.AnyCommand] | type[modbus.Request[Any]]
+KINDS: Mapping[str, Sequence[AnyCommand]] = {
+    "auto": (*dcon.COMMANDS, *modbus.REQUESTS),
+    "dcon": dcon.COMMANDS,
+    "rtu": modbus.REQUESTS,
+}
+"""The commands and requests of each protocol."""
 
 
-def commands_named(name: str, kinds: Sequence[AnyCommand]) -> list[AnyCommand]:
+def commands_named(name: str, protocol: str) -> list[AnyCommand]:
     """Find commands by name, by the name of their response, by syntax, by function and sub-function, or by section.
 
-    Errors: `UsageError` with suggestions, if no command fits.
+    Errors: `UsageError` with suggestions, if no command of the protocol fits.
 
-    >>> [found] = commands_named("$AA2", dcon.COMMANDS)
+    >>> [found] = commands_named("$AA2", "dcon")
     >>> found.__name__
     'ReadConfiguration'
     """
+    found = _named(name, KINDS[protocol])
+    if found:
+        return found
+    if _named(name, KINDS["auto"]):
+        raise UsageError(
+            f"{name} is {'a DCON' if protocol == 'rtu' else 'a Modbus'} command: use --protocol "
+            f"{'dcon' if protocol == 'rtu' else 'rtu'}"
+        )
+    kinds = KINDS[protocol]
+    if _SECTION.fullmatch(name):
+        raise UsageError(f"there is no command in section {name}: {_SECTIONS[protocol]}")
+    names = [kind.__name__ for kind in kinds] if name[:1].isalpha() else [it for kind in kinds for it in _syntax(kind)]
+    hint = near(name, names) or (
+        ": give a name, a syntax such as $AA2, a function such as 46 2A, or a section such as 2.10"
+    )
+    raise UsageError(f"there is no command {name!r}{hint}")
+
+
+def _named(name: str, kinds: Sequence[AnyCommand]) -> list[AnyCommand]:
+    """Return the commands that a name means, in the first way in which it means any."""
     syntax = re.sub(r"^([%#$~@])[0-9A-F]{2}", r"\1AA", name)
     ways = (
         [kind for kind in kinds if name == kind.section or name in _syntax(kind) or syntax in _syntax(kind)],
-        [kind for kind in kinds if _plain(kind.__name__) == _plain(name)],
+        [kind for kind in kinds if plain(kind.__name__) == plain(name)],
         [kind for kind in kinds if kind.section.startswith(f"{name}.")],
         [kind for kind in kinds if _is_function(name, kind)],
-        [kind for kind in kinds if _plain(_response_name(kind)) == _plain(name)],
+        [kind for kind in kinds if name and plain(_response_name(kind)) == plain(name)],
     )
-    found = next(filter(None, ways), None)
-    if found:
-        return found
-    names = [kind.__name__ for kind in kinds] if name[:1].isalpha() else [it for kind in kinds for it in _syntax(kind)]
-    close = [it for it in names if len(name) > 2 and _plain(name) in it.lower()]
-    hint = f"; did you mean {' or '.join(close)}?" if 0 < len(close) <= 6 else near(name, names)
-    raise UsageError(
-        f"there is no command {name!r}: give a name, a syntax such as $AA2, a function such as 46 2A, or a section such"
-        f" as 2.10{hint}"
-    )
+    return next(filter(None, ways), [])
 
 
 def _syntax(kind: AnyCommand) -> tuple[str, ...]:
@@ -165,28 +180,47 @@ def registers_explained(name: str, profiles: Iterable[Profile]) -> list[Record]:
     Errors: `UsageError` with suggestions, if no model has it.
     """
     found: list[Record] = []
-    names: dict[str, None] = {}
+    rows: list[modbus.Register] = []
+    models: list[str] = []
     for profile in profiles:
+        models.append(profile.model.value)
         for row in modbus.RegisterMap(profile):
-            names[row.name] = None
+            rows.append(row)
             if _is_meant(name, row):
                 _add(found, row, profile.model)
     if not found:
-        known = sorted(names)
-        close = [it for it in known if len(name) > 2 and _plain(name) in _plain(it)]
-        hint = f"; did you mean {' or '.join(close)}?" if 0 < len(close) <= 6 else near(name, known)
-        raise UsageError(
-            f"there is no register {name!r}: give a name, a number such as 40489, or an address such as 488{hint}"
-        )
+        of = f"{models[0]} has" if len(models) == 1 else "there is"
+        raise UsageError(f"{of} no register {_no_register(name, rows)}")
     return found
 
 
 def _is_meant(name: str, row: modbus.Register) -> bool:
-    if re.fullmatch("[0134][0-9]{4}", name):
-        return row.number <= name <= row.last_number
+    if NUMBER.fullmatch(name):
+        return _distance(name, row) == (0, 0)
     if name.isdecimal() or is_hex(name):
         return row.address <= integer(name) < row.address + row.count
-    return _plain(name) == _plain(row.name)
+    return plain(name) == plain(row.name)
+
+
+def _distance(number: str, row: modbus.Register) -> tuple[int, int]:
+    """Return how far a number of the manual is from those of a row: 0 for the same area, and how many numbers."""
+    item = int(number[1:])
+    first, last = int(row.number[1:]), int(row.last_number[1:])
+    return int(number[0] != row.number[0]), max(first - item, item - last, 0)
+
+
+def _no_register(name: str, rows: Sequence[modbus.Register]) -> str:
+    """Return a name that no row has, and what comes near it."""
+    if NUMBER.fullmatch(name):
+        nearest = min(rows, key=lambda row: _distance(name, row))
+        if nearest.number[0] != name[0]:
+            return f"{name}, and no other {area_words(modbus.Area(int(name[0])))}"
+        return f"{name}; the nearest is {nearest.number} {nearest.name}"
+    if name.isdecimal() or is_hex(name):
+        last = max(row.address + row.count - 1 for row in rows)
+        return f"at address {name}: the last address is {last}; numbers of the manual have five digits, such as 40489"
+    known = sorted({row.name for row in rows})
+    return f"{name!r}{near(name, known) or ': give a name, a number such as 40489, or an address such as 488'}"
 
 
 def _add(found: list[Record], row: modbus.Register, model: Model) -> None:
@@ -217,18 +251,27 @@ def _functions(row: modbus.Register) -> list[str]:
 # --- errata -----------------------------------------------------------------------------------------------------------
 
 
-def errata_named(name: str) -> Iterator[Record]:
-    """Yield the errata with an id, or those about a section or a command.
+def errata_named(name: str) -> list[Record]:
+    """Return the errata with an id, or those about a section or a command.
 
-    Errors: `UsageError` if no erratum fits.
+    Errors: `UsageError` with suggestions, if no erratum fits.
     """
     number = re.fullmatch("E([0-9]+)", name.upper())
     wanted = f"E{int(number[1]):02}" if number else ""
+    rows = facts.errata()
     found = [
         row
-        for row in facts.errata().values()
-        if row["id"] == wanted or name in row["sections"] or _plain(name) in map(_plain, row["used_by"])
+        for row in rows.values()
+        if row["id"] == wanted or name in row["sections"] or plain(name) in map(plain, row["used_by"])
     ]
-    if not found:
-        raise UsageError(f"there is no erratum {name!r}: give an id such as E24, a section such as 2.11, or a command")
-    yield from found
+    if found:
+        return found
+    if number:
+        first, *_, last = rows
+        raise UsageError(f"there is no erratum {name}: the ids are {first} to {last}")
+    if _SECTION.fullmatch(name):
+        raise UsageError(f"there is no erratum about section {name}")
+    hint = near(name, sorted({it for row in rows.values() for it in row["used_by"] if it.isalpha()}))
+    raise UsageError(
+        f"there is no erratum {name!r}{hint or ': give an id such as E24, a section such as 2.11, or a command'}"
+    )

@@ -3,12 +3,13 @@
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import groupby
+from operator import attrgetter
 
-from i7000 import Protocol, Status, describe
+from i7000 import Fault, Protocol, Status, describe
 from i7000.cli.readers import Read
 from i7000.cli.records import OPTIONS, VALUES, fault_words
 from i7000.cli.text import Line
-from i7000.dissect import Item, Meaning, Place
+from i7000.dissect import Item, Meaning, Origin, Place
 from i7000.dissect.words import models_words
 
 __all__ = ["frame_lines"]
@@ -25,7 +26,9 @@ def frame_lines(read: Read, *, models: bool) -> Iterator[Line]:
         yield _row("note", read.note or "")
         return
     if heard.error is not None:
-        yield [(f"{_INDENT}not understood: {fault_words(heard.error)}", "red")]
+        noted = heard.error.fault is Fault.CHECKSUM and any("checksum" in note for note in heard.notes)
+        wrong = "the checksum is missing or wrong" if noted else fault_words(heard.error)
+        yield [(f"{_INDENT}not understood: {wrong}", "red")]
     known = heard.meanings if len(heard.meanings) == 1 else ()
     short = len(heard.wire) <= _SHORT
     for meaning in known:
@@ -95,10 +98,13 @@ def _readings(meaning: Meaning) -> Iterator[Line]:
     for code in sorted({it.type_code for it in readings if it.type_code is not None}):
         yield _row("type", describe.type_code(code))
     if any(it.status is None and it.type_code is None for it in readings):
-        yield _row("type", "unknown: give --type")
-    if meaning.assumed:
-        names = " and ".join(OPTIONS[name].replace("_", " ") for name in meaning.assumed)
-        yield _row("assumed", f"the factory default of {names}")
+        refuted = next((fact.where for fact in meaning.refuted if fact.name == "types"), None)
+        yield _row("type", "unknown: give --type" if refuted is None else f"unknown: not the one that {refuted} said")
+    assumed = (fact for fact in meaning.facts if fact.origin is Origin.ASSUMED)
+    for where, group in groupby(assumed, attrgetter("where")):
+        names = " and ".join(OPTIONS[fact.name].replace("_", " ") for fact in group)
+        words = f"{names} as the broadcast of {where} set" if where else f"the factory default of {names}"
+        yield _row("assumed", words)
 
 
 def _items(items: Iterable[Item]) -> Iterator[Line]:

@@ -29,7 +29,7 @@ from i7000.cli.numbers import baud_rate, hex_byte, integer
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
-from i7000.cli.words import UsageError, near, truth, type_code
+from i7000.cli.words import UsageError, near, plain, truth, type_code
 from i7000.dissect import Known
 from i7000.dissect.words import models_words
 from i7000.message import Message
@@ -101,16 +101,27 @@ def refusal_words(refusal: InvalidValueError, kind: type[Message], assignments: 
 
     >>> refusal = InvalidValueError("timeout", 300, "00..FF", "2.39")
     >>> refusal_words(refusal, dcon.SetHostWatchdogTimeout, ["address=1", "timeout=30s"])
-    'timeout cannot be 30s: 00..FF, counts of 0.1 s, manual 2.39'
+    'timeout cannot be 30s: 0..25.5 s in steps of 0.1, manual 2.39'
     """
     written = dict(assignment.split("=", 1) for assignment in assignments)
     field = refusal.field
     if field not in written:
         return str(refusal)
     scale = scale_of(kind, field, channel=written.get("channel", "0") != "0") if field in parts_of(kind) else None
-    said = scale is None or scale.unit in refusal.allowed
-    also = "" if scale is None or said else f", counts of {1 / scale.per_unit:g} {scale.unit}"
-    return str(as_written(refusal, field, written[field], also))
+    allowed = _readable(refusal.allowed)
+    if scale and refusal.allowed == _BYTE:
+        allowed = f"0..{0xFF / scale.per_unit:g} {scale.unit} in steps of {1 / scale.per_unit:g}"
+    elif scale and scale.unit not in allowed:
+        allowed += f", counts of {1 / scale.per_unit:g} {scale.unit}"
+    return str(as_written(refusal, field, written[field], allowed))
+
+
+_BYTE = "00..FF"
+
+
+def _readable(allowed: str) -> str:
+    """Return what is allowed, with bytes as they are written at the terminal."""
+    return allowed.replace(_BYTE, "0..255 or 00h..FFh")
 
 
 def frame_text(message: Message, frame: bytes) -> str:
@@ -154,7 +165,7 @@ def _writing(kind: type[Message], field: str) -> str:
     """Return how the values of a field are written."""
     values, part = get_args(parts_of(kind)[field].type)
     scale = scale_of(kind, field, channel=False)
-    how: str = "with commas between" if values in _LISTS else part.allowed.replace("00..FF", "0..255 or 00h..FFh")
+    how: str = "with commas between" if values in _LISTS else _readable(part.allowed)
     if field in _PARTS:
         how = f"a number, or {' '.join(f'{name}=...' for name in _PARTS[field])}"
     elif scale:
@@ -191,18 +202,17 @@ def find(name: str, kinds: Sequence[type[Message]]) -> type[Message]:
 
     Errors: `UsageError`.
     """
-    plain = {kind.__name__.lower(): kind for kind in reversed(kinds)}  # the first of two with one name
-    wanted = name.lower().replace("-", "").replace("_", "")
-    if wanted not in plain:
+    named = {kind.__name__.lower(): kind for kind in reversed(kinds)}  # the first of two with one name
+    wanted = plain(name)
+    if wanted not in named:
         other, protocol = (MODBUS, "rtu") if kinds is DCON else (DCON, "dcon")
         if any(kind.__name__.lower() == wanted for kind in other):
             raise UsageError(f"{name} is a message of the other protocol: add --protocol {protocol}")
-        close = [plain[word].__name__ for word in plain if wanted and wanted in word]
-        hint = f"; did you mean {' or '.join(close)}?" if close else near(name, [kind.__name__ for kind in kinds])
+        hint = near(name, [kind.__name__ for kind in kinds])
         if name[:1] in ("$", "#", "%", "~", "@", "!", ">", "?"):
             hint = "; that is a frame, and i7000 decode reads it"
         raise UsageError(f"there is no command or response {name!r}{hint or ': i7000 commands lists them'}")
-    return plain[wanted]
+    return named[wanted]
 
 
 def _named(field: str, text: str, read: Callable[[str], Any]) -> Any:  # noqa: ANN401 - of any field

@@ -25,7 +25,7 @@ from i7000 import (
 from i7000.cli.choices import FILTERS, PROTOCOLS
 from i7000.cli.numbers import baud_rate, integer
 from i7000.cli.refusals import as_written
-from i7000.cli.words import UsageError, channel_numbers, choice, member, near, quantity, truth, type_codes
+from i7000.cli.words import UsageError, channel_numbers, choice, member, model, near, quantity, truth, type_codes
 from i7000.device import Eeprom, factory, power_on
 
 __all__ = ["Described", "named", "read_module"]
@@ -52,10 +52,11 @@ class Described:
     """The names of the settings in the description, and ``firmware``."""
 
 
-def read_module(text: str, address: int) -> Described:
+def read_module(text: str, address: int, given: str = "--model") -> Described:
     """Read a module.
 
     Shape: ``MODEL[@FIRMWARE][,name=value...]``; other settings have the factory default, the address is `address`.
+        `given` is what the text was written after, for messages.
     Errors: `UsageError`.
 
     >>> described = read_module("I-7018@B2.9,type=K,checksum=true", 0x02)
@@ -64,10 +65,10 @@ def read_module(text: str, address: int) -> Described:
     ('I-7018', 'B2.9', 2, 'K', ['checksum', 'firmware', 'type'])
     """
     head, *assignments = text.split(",")
-    model, at, firmware = head.partition("@")
+    name, at, firmware = head.partition("@")
     written: dict[str, tuple[str, str]] = {}
-    with named(repr(text)):
-        made = factory(Model.find(model.strip()), Firmware(firmware.strip()) if at else None)
+    with named(f"{given} {text or repr(text)}"):
+        made = factory(model(name.strip()), Firmware(firmware.strip()) if at else None)
         values = _assigned(assignments, made, written)
         init_switch = values[""].pop("init_switch", False)
         try:
@@ -97,10 +98,10 @@ def _assigned(
     for assignment in assignments:
         name, equals, value = (part.strip() for part in assignment.partition("="))
         if not equals:
-            raise UsageError(f"{assignment!r} is not name=value")
+            raise UsageError(f"{assignment!r} is not name=value, such as type=K")
         if name not in _SETTINGS:
-            names = list(_SETTINGS)
-            raise UsageError(f"a module has no setting {name!r}: {', '.join(names)}{near(name, names)}")
+            hint = near(name, _SETTINGS) or f": the settings are {', '.join(_SETTINGS)}"
+            raise UsageError(f"a module has no setting {name!r}{hint}")
         setting = _SETTINGS[name]
         before, _ = written.setdefault(setting.field, (name, value))
         if setting.field in values[setting.within]:
@@ -145,8 +146,8 @@ def _counts(unit: Unit | None, scale: int, low: int, high: int) -> Callable[[str
         value, said = quantity(text)
         counts = round(min(max(value * scale, low - 1), high + 1))
         if said not in (None, unit) or abs(counts - value * scale) > _EXACT or not low <= counts <= high:
-            span = f"{low / scale:g}..{high / scale:g} in steps of {1 / scale:g}"
-            raise UsageError(f"{text!r} cannot be: {span} {unit or ''}".rstrip())
+            span = f"{low / scale:g}..{high / scale:g} {unit or ''}".rstrip()
+            raise UsageError(f"{text!r} is not within {span} in steps of {1 / scale:g}")
         return counts
 
     return read
@@ -162,7 +163,9 @@ def _each(field: str, read: Callable[[str], Any]) -> Callable[[str, Eeprom], tup
             return found * len(others)
         if len(found) not in (made.model.channels, len(others)):
             counts = " or ".join(map(str, sorted({1, made.model.channels, len(others)})))
-            raise UsageError(f"{text!r} has {len(found)} values: {counts} with / between, {made.model.value}")
+            raise UsageError(
+                f"{text!r} has {len(found)} values: {made.model.value} takes {counts}, with / between them"
+            )
         return found + others[len(found) :]
 
     return values

@@ -41,7 +41,9 @@ def integer(text: str) -> int:
         return int(text)
     if _BARE.fullmatch(text):
         raise UsageError(f"{text!r} has hex digits: write 0x{text} or {text}h")
-    raise UsageError(f"{text!r} is not a number: write it in decimal, or in hex as 0x1A or 1Ah")
+    if re.fullmatch("[-+]?[0-9]+", text):
+        raise UsageError(f"{text!r} is too large: a number has at most ten digits")
+    raise UsageError(f"{text!r} is not a whole number: write it in decimal, or in hex as 0x1A or 1Ah")
 
 
 def hex_byte(text: str) -> int:

@@ -6,20 +6,24 @@ from typing import Annotated, Literal
 from attrs import evolve, fields, frozen
 from cyclopts import Parameter
 
-from i7000 import DataFormat, Firmware, InvalidValueError, ModbusDataFormat, Model, Protocol
+from i7000 import DataFormat, Firmware, InvalidValueError, ModbusDataFormat, Protocol
 from i7000.cli import choices
-from i7000.cli.module import Described, read_module
+from i7000.cli.module import Described, named, read_module
 from i7000.cli.numbers import integer
 from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, type_codes
+from i7000.cli.words import model as model_named
 from i7000.describe import address as address_words
 from i7000.dissect import Knowledge, Known
 
-__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName"]
+__all__ = ["LAST_ADDRESS", "PROTOCOLS", "UNKNOWN", "Json", "Module", "ProtocolName", "Texts", "address_of"]
 
 ProtocolName = Annotated[Literal["dcon", "rtu"], Parameter(help="The protocol of the message: DCON or Modbus RTU.")]
 PROTOCOLS: dict[str, Protocol | None] = {"auto": None, **choices.PROTOCOLS}
 """The names of the protocols at the terminal."""
+
+Texts = Annotated[tuple[str, ...], Parameter(negative="", show_default=False)]
+"""The values of an option that can be given several times."""
 
 _ADDRESSED = re.compile(r"([^=@,]*)=(.*)")
 LAST_ADDRESS = 0xFF
@@ -30,7 +34,7 @@ LAST_ADDRESS = 0xFF
 class Module:
     """What is known about the modules."""
 
-    model: Annotated[tuple[str, ...], Parameter(negative="", show_default=False)] = ()
+    model: Texts = ()
     """Model of the module, with settings if you like: I-7018R or M-7019R@B3.7,type=K; see `i7000 simulate --help`. For
     several modules, give each with its address: --model 1=M-7019R --model 2=I-7018."""
     firmware: str | None = None
@@ -92,11 +96,13 @@ class Module:
             raise UsageError("--format and --checksum are for DCON; for Modbus give --modbus-format")
         if protocol == "dcon" and self.modbus_format is not None:
             raise UsageError("--modbus-format is for --protocol rtu; for DCON give --format")
+        with named("--type"):
+            types = None if self.types is None else type_codes(self.types)
         try:
             known = Known(
                 None,
                 None if self.firmware is None else Firmware(self.firmware),
-                None if self.types is None else type_codes(self.types),
+                types,
                 self.data_format,
                 self.checksum,
                 self.single_ended,
@@ -121,25 +127,26 @@ class Module:
         options = {"firmware": ("--firmware", self.firmware), "type_codes": ("--type", self.types)}
         options["single_ended"] = ("--single-ended", "given")
         name, text = options.get(refusal.field, ("", None))
-        return UsageError(as_written(refusal, name, text) if text is not None else refusal)
+        said = as_written(refusal, name, text) if text is not None else refusal
+        return UsageError(said if self.model or refusal.field == "firmware" else f"no model accepts it: {said}")
 
 
 def _described(text: str) -> tuple[int | None, Known]:
     """Read ``[ADDRESS=]MODEL[@FIRMWARE][,name=value...]``."""
+    written, address = text, None
     addressed = _ADDRESSED.fullmatch(text)
-    address = None
     if addressed:
-        address = integer(addressed[1])
+        with named(f"--model {written}"):
+            address = integer(addressed[1])
         if not 0 <= address <= LAST_ADDRESS:
-            raise UsageError(f"{text!r}: an address is 0..255 or 00h..FFh")
+            raise UsageError(f"--model {written}: an address is 0..255 or 00h..FFh")
         text = addressed[2]
     if "@" not in text and "," not in text:
-        try:
-            return address, Known(Model.find(text))
-        except InvalidValueError as refusal:
-            raise UsageError(as_written(refusal, "--model", text)) from None
+        return address, Known(model_named(text))
     described = read_module(text, 1 if address is None else address)
-    if address is None and "address" in described.given:
+    if "address" in described.given:
+        if address is not None:
+            raise UsageError(f"--model {written}: the address is given twice")
         address = described.eeprom.address
     return address, _known(described)
 
@@ -161,3 +168,15 @@ def _known(described: Described) -> Known:
 
 UNKNOWN = Module()
 Json = Annotated[bool, Parameter(help="Print JSON, one object a line.", negative="")]
+
+
+def address_of(text: str) -> int:
+    """Read an address of ``--address``.
+
+    Errors: `UsageError`.
+    """
+    with named(f"--address {text}"):
+        number = integer(text)
+    if not 0 <= number <= LAST_ADDRESS:
+        raise UsageError(f"--address {text}: an address is 0..255 or 00h..FFh")
+    return number

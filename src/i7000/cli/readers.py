@@ -15,9 +15,10 @@ from i7000.dissect import Heard, Kind, Knowledge, Line, Piece, Place, flush, hea
 from i7000.dissect.capture import Damage, Packet, packets
 from i7000.dissect.repeats import sent
 from i7000.dissect.stream import looks_like
+from i7000.recording import Carried, Damaged, End, Start, read
 from i7000.settings import Protocol
 
-__all__ = ["Missing", "Read", "of_capture", "of_lines", "of_stream"]
+__all__ = ["Missing", "Read", "of_capture", "of_lines", "of_recording", "of_stream"]
 
 _STAMP = re.compile(
     r"(?<![\w:.])(?:\d{4}[-/.]\d\d[-/.]\d\d[T ])?\d\d?:\d\d:\d\d(?:[.,]\d{1,9})?(?:Z|[-+]\d\d:?\d\d)?(?![\w:])"
@@ -108,26 +109,74 @@ def of_stream(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | 
 
 def of_capture(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
     """Read a pcap or pcapng file; a frame can be in several packets, and a packet can have several frames."""
+    return _of_packets(packets(data), "packet", knowledge, protocol)
+
+
+def of_recording(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
+    """Read a recording, whose lines are as packets of a capture file."""
+    return _of_packets(_recorded(lines), "line", knowledge, protocol)
+
+
+def _recorded(lines: Iterable[tuple[int, str]]) -> Iterator[Packet | Damage]:
+    """Yield what a recording has of the line, with dates."""
+    began: float | None = None
+    ended = False
+    for number, text in lines:
+        ended = False
+        match read(text):
+            case Start() as start:
+                began = _date(start.time)
+            case Carried() as carried:
+                time = None if began is None else began + carried.seconds
+                yield Packet(number, time, carried.sent, carried.wire)
+            case End():
+                ended = True
+            case Damaged(reason):
+                yield Damage(number, reason)
+    if not ended:
+        yield Damage(number, "the recording has no end: what followed is not in it")
+
+
+def _date(text: str) -> float | None:
+    """Return a date as seconds since 1970."""
+    try:
+        return datetime.fromisoformat(text).timestamp()
+    except (ValueError, OverflowError):
+        return None
+
+
+def _of_packets(
+    found: Iterable[Packet | Damage], word: str, knowledge: Knowledge, protocol: Protocol | None
+) -> Iterator[Read]:
     line = Line(knowledge, protocol)
     before: Packet | None = None
-    for packet in packets(data):
+    for packet in found:
         if before is not None and (isinstance(packet, Damage) or _is_apart(before, packet)):
-            line, found = flush(line, f"packet {before.number}", sent=before.outbound)
-            yield from (_frame(heard, before.number, before) for heard in found)
+            line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
+            yield from (_frame(it, before.number, before) for it in heard)
         if isinstance(packet, Damage):
             line = evolve(line, count=line.count + 1)
             at = before.number if before else 0
-            yield Read(line.count, at, at, f"byte {packet.offset}", None, None, Missing.DAMAGE, packet.reason)
+            yield Read(
+                line.count,
+                at,
+                at,
+                f"{'byte' if word == 'packet' else word} {packet.offset}",
+                None,
+                None,
+                Missing.DAMAGE,
+                packet.reason,
+            )
             continue
         for note in _lost(packet):
             line = evolve(line, count=line.count + 1)
             yield Read(line.count, packet.number, packet.number, "", _utc(packet), None, Missing.DAMAGE, note)
-        line, found = hear(line, packet.wire, f"packet {packet.number}", sent=packet.outbound)
-        yield from (_frame(heard, packet.number, packet) for heard in found)
+        line, heard = hear(line, packet.wire, f"{word} {packet.number}", sent=packet.outbound)
+        yield from (_frame(it, packet.number, packet) for it in heard)
         before = packet
     if before is not None:
-        line, found = flush(line, f"packet {before.number}", sent=before.outbound)
-        yield from (_frame(heard, before.number, before) for heard in found)
+        line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
+        yield from (_frame(it, before.number, before) for it in heard)
 
 
 def _lost(packet: Packet) -> Iterator[str]:

@@ -43,7 +43,7 @@ def registers(
         raise UsageError("give --model to list its registers, or a register to explain, such as i7000 registers 40489")
     profiles = {profile.model: profile for profile in reversed(known.modbus)}
     printer = Printer(json=json)
-    if name:
+    if name is not None:
         shown: set[str] = set()
         for record in registers_explained(name, reversed(profiles.values())):
             printer.record(record, register_text(record, shown))

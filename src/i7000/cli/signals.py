@@ -6,9 +6,7 @@ Laws: any text gives a value or a `UsageError` that names what was written and w
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
-from i7000 import (
-    Unit,
-)
+from i7000 import Unit
 from i7000.cli.module import named
 from i7000.cli.numbers import integer
 from i7000.cli.words import (
@@ -47,8 +45,10 @@ _FORMS = {
 }
 
 
-def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0) -> tuple[Sources, ...]:
-    """Read what is connected to each of several modules; what is not said is that of `default_sources`.
+def read_signals(
+    texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0, connected: Iterable[Sources] | None = None
+) -> tuple[Sources, ...]:
+    """Read what is connected to each of several modules; the rest is as in `connected`, or that of `default_sources`.
 
     Shape: ``[ADDRESS:]CHANNELS=SOURCE``, for the modules with that address or for all; later ones count.
         CHANNELS: ``0``, ``0-3``, ``0,2,5``, ``all``, or ``cjc``. SOURCE: a quantity, ``open``, or one of the others
@@ -62,7 +62,7 @@ def read_signals(texts: Iterable[str], eeproms: Sequence[Eeprom], seed: int = 0)
     >>> sources.channels[0], sources.channels[2] is OPEN
     (Ramp(low=0.0, high=10.0, period=60.0, unit=<Unit.VOLT: 'V'>), True)
     """
-    found = [default_sources(eeprom) for eeprom in eeproms]
+    found = [default_sources(eeprom) for eeprom in eeproms] if connected is None else list(connected)
     for text in texts:
         with named(repr(text)):
             where, equals, what = text.partition("=")

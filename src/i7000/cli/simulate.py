@@ -5,7 +5,9 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from i7000.cli.options import Texts
 from i7000.cli.text import Printer
+from i7000.cli.words import UsageError
 
 __all__ = ["simulate"]
 
@@ -13,12 +15,8 @@ __all__ = ["simulate"]
 def simulate(  # noqa: PLR0913 - each of them is an option
     *,
     model: Annotated[
-        tuple[str, ...],
-        Parameter(
-            help="A module, as MODEL[@FIRMWARE][,name=value...]; repeat it for each. Example: M-7019R,type=K.",
-            negative="",
-            show_default=False,
-        ),
+        Texts,
+        Parameter(help="A module, as MODEL[@FIRMWARE][,name=value...]; repeat it for each. Example: M-7019R,type=K."),
     ] = (),
     pty: Annotated[
         bool,
@@ -29,19 +27,13 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
     rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
     signal: Annotated[
-        tuple[str, ...],
-        Parameter(
-            help="A signal at the inputs, as [ADDRESS:]CHANNELS=SIGNAL. Example: 0=1.5V.",
-            negative="",
-            show_default=False,
-        ),
+        Texts,
+        Parameter(help="A signal at the inputs, as [ADDRESS:]CHANNELS=SIGNAL. Example: 0=1.5V."),
     ] = (),
     fault: Annotated[
-        tuple[str, ...],
+        Texts,
         Parameter(
-            help="A fault of the line: echo, lumps, drop, flip, noise, late. Example: drop=0.01.",
-            negative="",
-            show_default=False,
+            help="A fault of the line, as NAME[=PROBABILITY][@WHERE]; repeat it for each. Example: late=0.25:0.9@01."
         ),
     ] = (),
     seed: Annotated[int, Parameter(help="Random seed for faults and noise; the same seed repeats the run.")] = 0,
@@ -52,6 +44,13 @@ def simulate(  # noqa: PLR0913 - each of them is an option
         Literal["live", "lines", "none"] | None,
         Parameter(
             help="live shows modules and traffic, lines traffic line by line. Default: live on a terminal, else none."
+        ),
+    ] = None,
+    control: Annotated[
+        str | None,
+        Parameter(
+            help="Take commands: - from standard input, a path at a Unix socket. Example: bus.sock.",
+            allow_leading_hyphen=True,
         ),
     ] = None,
 ) -> int:
@@ -74,10 +73,23 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       `cold_junction` for `cjc`; other columns are ignored. Each further line has a value for every column, with a
       decimal point, or `open` for an open wire. The seconds rise; a row holds until the next one. A file has at most
       2,000,000 rows and 200 MB.
-    * Faults, with a probability P: `drop=P` and `flip=P` of a byte, `noise=P`, `late=P[:SECONDS]` of a response.
-      Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * Faults of bytes, each with a probability P: `drop=P`, `flip=P` of a bit, `noise=P` before them. Faults of
+      responses: `late=P[:SECONDS]` (0.3 s), `silent=P`, `truncate=P`, `duplicate=P`, `misaddress=P` (the address of
+      another module), `replay=P` (the response to an earlier request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception
+      with CODE, 4). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * After a fault, `@to` limits it to requests, `@from` to responses, and `@01` to the responses of address 01:
+      `drop=0.01@to`, `late=0.25:0.9@01`, `silent=1@02`. A fault with `@` replaces the same fault without it.
     * The file of `--eeprom` is created if it does not exist. If it does, the modules have the settings stored in it,
       and you may leave out `--model`. Only one simulator at a time can use the file.
+
+    While it runs, the live view takes the keys that it shows. `--control` takes commands, one a line, and answers each
+    by a line that begins with `ok` or `error:`. The key `:` takes the same commands. An ADDRESS is the stored one.
+
+    * `power-cycle [ADDRESS]` switches the power of all modules or one off and on.
+    * `init ADDRESS on` or `off` moves the INIT switch, which counts at the next power cycle.
+    * `signal 01:0=5V` connects a signal as `--signal` does.
+    * `fault late=0.1 drop=0@to` changes faults as `--fault` does, `fault off` switches all off, `fault` shows them.
+    * `quit` ends the simulation, and so does the end of standard input with `--control -`.
 
     Over RFC 2217, wrong baud rates and parities turn frames into garbage; elsewhere they do not matter. `--tcp` and
     `--rfc2217` serve 64 hosts each at a time. A host that does not read loses responses, and so does one that waits for
@@ -88,21 +100,22 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     output that could not be written during the simulation; 130 for Ctrl-C before the simulation starts.
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
+    from i7000.cli.faults import read_faults  # noqa: PLC0415
+    from i7000.cli.serving import read_place  # noqa: PLC0415
 
     printer = Printer()
-    places = [
-        simulating.read_place(scheme, text)
-        for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
-        if text is not None
-    ]
+    if control == "-" and view == "live":
+        raise UsageError("--control - and the keys of --view live both read standard input: give one of them")
+    places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     with simulating.held(eeprom):
         simulated = simulating.Simulation(
             simulating.read_modules(model, signal, seed=seed, memory=eeprom),
-            simulating.read_faults(fault),
+            read_faults(fault),
             seed,
             eeprom,
             pty or not places,
             tuple(places),
-            view or ("live" if printer.out.is_terminal else "none"),
+            view or ("live" if printer.out.is_terminal and control != "-" else "none"),
+            control,
         )
         return simulating.run(simulated, printer)

@@ -4,19 +4,19 @@ Laws: nothing raises, whatever the bytes; all that came from the line is escaped
 cursor; what cannot be decoded is shown as bytes, with what is wrong.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import groupby
 
 from rich.text import Text
 
-from i7000 import Noise, Profile, Protocol, Reading, Status, dcon, modbus
+from i7000 import Noise, Profile, Protocol, Reading, Status, TypeCode, dcon, modbus
 from i7000.cli.records import fault_words
 from i7000.cli.text import escaped
 from i7000.dissect import ChannelReading, Item, Knowledge, Known, Line, Meaning, hear_frame
-from i7000.simulator.observed import Observed
+from i7000.simulator.observed import Change, Observed
 
-__all__ = ["INDENT", "lines", "readings_text"]
+__all__ = ["INDENT", "change_line", "lines", "reading_text", "readings_text"]
 
 INDENT = 12
 """Columns of the time, which answers leave blank."""
@@ -34,10 +34,10 @@ def lines(observed: Observed) -> Iterator[Text]:
     """
     speech = _modbus if observed.protocol is Protocol.MODBUS_RTU else _dcon
     heard, answer = speech(observed)
-    line = Text(f"{observed.at:10.3f}  ").append(f"{escaped(observed.client)}  ", "dim").append_text(heard)
+    line = _at(observed.at).append(f"{escaped(observed.client)}  ", "dim").append("-> ", "blue").append_text(heard)
     if answer is not None:
         yield line
-        line = Text(" " * INDENT).append_text(answer)
+        line = Text(" " * INDENT).append("<- ", "green").append_text(answer)
     elif observed.profile is not None:
         line.append("  silence", "dim")
     elif observed.deaf is not None:
@@ -45,6 +45,17 @@ def lines(observed: Observed) -> Iterator[Text]:
     if observed.faults:
         line.append(f"  [{escaped(', '.join(observed.faults))}]", "magenta")
     yield line
+
+
+def change_line(change: Change) -> Text:
+    """Return the line of a change of a module."""
+    module = f"{change.address:02X} {change.model.value}  "
+    what = ("EEPROM: " if change.stored else "") + ", ".join(change.what)
+    return _at(change.at).append(module, "bold").append(escaped(what), "yellow")
+
+
+def _at(seconds: float) -> Text:
+    return Text(f"{seconds:10.3f}  ")
 
 
 def _deaf_words(protocol: Protocol, deaf: Profile) -> str:
@@ -64,19 +75,25 @@ _STATUS: dict[Status | None, tuple[str, str]] = {
 }
 
 
-def readings_text(readings: Sequence[Reading | ChannelReading], write: Callable[[int, float], str]) -> Text:
-    """Return readings as text: `write` makes it of channel and value; neighbours with one unit share it."""
+def readings_text(readings: Sequence[Reading | ChannelReading], types: Sequence[TypeCode | None] = ()) -> Text:
+    """Return readings as text, with the digits of known types; neighbours with one unit share it."""
     text = Text()
     for channel, reading in enumerate(readings):
-        value, unit = reading.value, reading.unit
         text.append(", " if channel else "")
-        if value is None:
-            unknown = reading.text if isinstance(reading, ChannelReading) else ""
-            text.append(*_STATUS.get(reading.status, (unknown, "")))
-            continue
+        text.append(*reading_text(reading, types[channel] if channel < len(types) else None))
         later = next((it.unit for it in readings[channel + 1 :] if it.value is not None), None)
-        text.append(write(channel, value) + (f" {unit}" if unit is not later else ""), "green")
+        if reading.value is not None and reading.unit and reading.unit is not later:
+            text.append(f" {reading.unit}", "green")
     return text
+
+
+def reading_text(reading: Reading | ChannelReading, type_code: TypeCode | None) -> tuple[str, str]:
+    """Return a reading without its unit, with the digits that a module writes for the type, and its style."""
+    if reading.value is None:
+        unknown = reading.text if isinstance(reading, ChannelReading) else ""
+        return _STATUS.get(reading.status, (unknown, ""))
+    known = type_code or (reading.type_code if isinstance(reading, ChannelReading) else None)
+    return (f"{reading.value:.7g}" if known is None else f"{reading.value:.{known.decimals}f}"), "green"
 
 
 # --- pieces -----------------------------------------------------------------------------------------------------------
@@ -105,10 +122,6 @@ def _for_nobody(observed: Observed) -> list[Text]:
 def _words(meaning: Meaning) -> list[Text]:
     """Return the fields of a message, by name."""
     return [Text(f"{field.name} {field.text}") for field in meaning.fields if field.name not in _ELSEWHERE]
-
-
-def _as_sent(_: int, value: float) -> str:
-    return f"{value:.7g}"
 
 
 @lru_cache(maxsize=32)
@@ -151,7 +164,7 @@ def _dcon_answer(wire: bytes, line: Line) -> Text:
     if heard.error is not None:
         return _not_meant(text, f"not understood: {fault_words(heard.error)}")
     (meaning,) = heard.meanings
-    return _meant(text, type(meaning.message).__name__, readings_text(meaning.readings, _as_sent), *_words(meaning))
+    return _meant(text, type(meaning.message).__name__, readings_text(meaning.readings), *_words(meaning))
 
 
 # --- Modbus -----------------------------------------------------------------------------------------------------------
@@ -207,8 +220,9 @@ def _items_text(group: list[Item], *, mapped: bool) -> Text:
     name = first.name or ("not in the map" if mapped else "")
     text = Text(" ").join(Text(it) for it in (_numbers(first, last), name) if it)
     readings = [item.reading for item in group if item.reading is not None]
+    types = [item.type_code for item in group]
     if len(readings) == len(group):
-        return text.append(" ").append_text(readings_text(readings, _as_sent))
+        return text.append(" ").append_text(readings_text(readings, types))
     values = [item.text or "" for item in group if item.value is not None]
     if first.name is None:
         values = [value.partition(",")[0] for value in values]

@@ -59,7 +59,7 @@ def counts(text: str, scale: Scale) -> int:
         )
     exact = Decimal(found[1]) * scale.per_unit
     if exact != int(exact):
-        raise UsageError(f"{text} is between two counts: steps of {1 / scale.per_unit:g} {scale.unit}".rstrip())
+        raise UsageError(f"{text} is not a multiple of {1 / scale.per_unit:g} {scale.unit}".rstrip())
     if not scale.bits:
         return int(exact)
     limit = 1 << scale.bits - 1

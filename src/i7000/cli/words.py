@@ -1,20 +1,23 @@
 """Words that people type -> values: types, units, channels, choices."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from enum import Enum
 from math import isfinite
 from typing import TypeVar
 
-from i7000 import MIXED, TypeCode, Unit
+from i7000 import MIXED, InvalidValueError, Model, TypeCode, Unit
 
 __all__ = [
+    "LineError",
     "UsageError",
     "channel_numbers",
     "choice",
     "member",
+    "model",
     "near",
+    "plain",
     "quantity",
     "truth",
     "type_code",
@@ -28,11 +31,41 @@ _T = TypeVar("_T")
 class UsageError(Exception):
     """Wrong usage of the command line; the message says what to write instead."""
 
+    code = 2
+    """The exit code."""
 
-def near(word: str, known: list[str]) -> str:
-    """Return the end of a message that suggests what was meant."""
-    found = get_close_matches(word, known, n=3, cutoff=0.5)
-    return f"; did you mean {' or '.join(found)}?" if found else ""
+
+class LineError(UsageError):
+    """A port that cannot be opened or is lost, or no answer; the message names it."""
+
+    code = 3
+
+
+def plain(name: str) -> str:
+    """Return a name in lower case, without separators.
+
+    >>> plain("Set-CJC_offset")
+    'setcjcoffset'
+    """
+    return re.sub(r"[-_\s]", "", name).lower()
+
+
+_MOST_NEAR = 6
+"""If a word is a part of more names, the most similar ones are suggested."""
+
+
+def near(word: str, known: Iterable[str]) -> str:
+    """Return the end of a message that suggests what was meant: names with the word in them, or similar ones.
+
+    >>> near("offset", ["cjc_offset", "filter"]), near("fliter", ["cjc_offset", "filter"]), near("?", ["filter"])
+    ('; did you mean cjc_offset?', '; did you mean filter?', '')
+    """
+    names = {plain(name): name for name in known}
+    within = [name for name in names if len(word) > 2 and plain(word) in name]
+    if not 0 < len(within) <= _MOST_NEAR:
+        within = get_close_matches(plain(word), within or names, n=3, cutoff=0.0 if within else 0.5)
+    *others, last = [names[name] for name in within] or [""]
+    return f"; did you mean {', '.join(others)}{' or ' if others else ''}{last}?" if last else ""
 
 
 # --- words for values -------------------------------------------------------------------------------------------------
@@ -48,6 +81,21 @@ def truth(text: str) -> bool:
     return _TRUTH[text.lower()]
 
 
+def model(text: str) -> Model:
+    """Read the name of a model.
+
+    >>> model("m-7018r").value
+    'M-7018R'
+    """
+    try:
+        return Model.find(text)
+    except InvalidValueError as refusal:
+        every = [one.value for one in Model]
+        few = refusal.allowed if len(refusal.allowed.split(", ")) < len(every) else ""
+        hint = "" if few else near(text, every)
+        raise UsageError(f"there is no model {text!r}{hint or f': {few or refusal.allowed}'}") from None
+
+
 def choice(text: str, choices: Mapping[str, _T]) -> _T:
     """Read one of a few words, in any case.
 
@@ -55,7 +103,7 @@ def choice(text: str, choices: Mapping[str, _T]) -> _T:
     1
     """
     if text.lower() not in choices:
-        raise UsageError(f"{text!r} is not one of {', '.join(choices)}{near(text.lower(), list(choices))}")
+        raise UsageError(f"{text!r} is not one of {', '.join(choices)}{near(text, choices)}")
     return choices[text.lower()]
 
 
@@ -90,9 +138,7 @@ def type_code(text: str) -> TypeCode | int:
         return _TYPES[name]
     if re.fullmatch(r"(?:0X)?[0-9A-F]{2}", name):
         return TypeCode.of(int(name, 16))
-    raise UsageError(
-        f"{text!r} is not a type: give two hex digits, or one of {', '.join(_TYPES)}{near(name, list(_TYPES))}"
-    )
+    raise UsageError(f"{text!r} is not a type: give two hex digits, or one of {', '.join(_TYPES)}{near(name, _TYPES)}")
 
 
 def type_codes(text: str) -> tuple[TypeCode, ...]:
@@ -100,7 +146,7 @@ def type_codes(text: str) -> tuple[TypeCode, ...]:
     codes = [type_code(part) for part in text.split(",")]
     unknown = [f"{code:02X}" for code in codes if not isinstance(code, TypeCode)]
     if unknown:
-        raise UsageError(f"type {unknown[0]} of {text!r} is not defined: 00..{max(TypeCode):02X}")
+        raise UsageError(f"type {unknown[0]} is not defined: types are 00..{max(TypeCode):02X}")
     return tuple(code for code in codes if isinstance(code, TypeCode))
 
 

@@ -4,7 +4,7 @@ Laws: every message that can be constructed has a wire form; `check` raises if a
 names the type of its response: ``class ReadConfiguration(Command[Configuration])``.
 """
 
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Never, TypeVar
 
 from i7000 import message
 from i7000.dcon.layout import Layout
@@ -25,7 +25,7 @@ class Message(message.Message):
     layout: ClassVar[Layout] = message.CompiledOnce(Layout.compile)  # type: ignore[assignment] # until the first use
 
 
-class Response(Message):
+class Response(Message, message.Response):
     """The base class of responses: the messages that a module sends."""
 
     __slots__ = ()
@@ -37,7 +37,7 @@ R = TypeVar("R", bound=Response)
 """The response of a command."""
 
 
-class Broadcast(Message):
+class Broadcast(Message, message.Query[Never]):
     """The base class of broadcasts: commands to all modules, without a response."""
 
     __slots__ = ()
@@ -46,7 +46,7 @@ class Broadcast(Message):
 
 
 @message.frozen
-class Command(Message, Generic[R]):
+class Command(Message, message.Query[R]):
     """The base class of commands to one module; `response` is the type of the valid response."""
 
     response: ClassVar[type[Response]]

@@ -43,7 +43,7 @@ class Ear:
 
     uart: Uart | None = None
     rests: tuple[tuple[Reception, bytes], ...] = field(default=(), kw_only=True)
-    told: bool = field(default=False, kw_only=True)
+    dcon_reported: bool = field(default=False, kw_only=True)
     """Whether a DCON frame was reported since the line was silent: modules of the other protocol hear it as noise."""
 
     def __attrs_post_init__(self) -> None:
@@ -51,8 +51,8 @@ class Ear:
             raise InvalidValueError("uart", self.uart, "a Uart, or None", "1.11")
         if not isinstance(self.rests, tuple) or not all(map(_is_rest, self.rests)):
             raise InvalidValueError("rests", self.rests, "the rests that `Bus.hear` returned", "")
-        if not isinstance(self.told, bool):
-            raise InvalidValueError("told", self.told, "True or False", "")
+        if not isinstance(self.dcon_reported, bool):
+            raise InvalidValueError("dcon_reported", self.dcon_reported, "True or False", "")
 
     @property
     def waiting(self) -> bool:
@@ -161,7 +161,11 @@ class Bus:
         if len(data) > 1 and _is_mixed(found):
             return self._hear_in_turn(ear, data, signals, now)
         bus, ear, told = self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
-        return bus, evolve(ear, told=ear.told or any(it.protocol is Protocol.DCON for it in told)), told
+        return (
+            bus,
+            evolve(ear, dcon_reported=ear.dcon_reported or any(it.protocol is Protocol.DCON for it in told)),
+            told,
+        )
 
     def _hear_in_turn(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
@@ -181,9 +185,9 @@ class Bus:
         signals = self._checked(signals, now)
         found = [(reception, part) for reception, rest in ear.rests for part in _flush(reception, rest)]
         left = tuple((reception, rest) for reception, rest in ear.rests if reception.protocol is Protocol.DCON)
-        if ear.told:
+        if ear.dcon_reported:
             found = [(reception, part) for reception, part in found if not isinstance(part, Noise)]
-        return self._hear(evolve(ear, rests=left, told=False), found, signals, now)
+        return self._hear(evolve(ear, rests=left, dcon_reported=False), found, signals, now)
 
     def _hear(
         self, ear: Ear, found: Sequence[tuple[Reception, bytes | Noise]], signals: Sequence[Signals], now: float

@@ -12,7 +12,7 @@ from attrs import evolve
 from i7000 import dcon, describe, modbus
 from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
-from i7000.dissect.known import Knowledge, Known
+from i7000.dissect.known import Knowledge, Known, Module
 from i7000.dissect.meaning import Meaning
 from i7000.dissect.modbus import ModbusReader
 from i7000.dissect.shapes import is_shaped
@@ -27,8 +27,9 @@ _MOST_STRIPPED = 20
 """The most channels whose blanks a log may have stripped."""
 
 
-def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | None) -> Iterator[str]:
-    """Yield the likely causes why a DCON frame cannot be decoded."""
+def dcon_causes(wire: bytes, module: Module, asked: bytes | None) -> Iterator[str]:
+    """Yield the likely causes why a DCON frame of a module cannot be decoded."""
+    known, reader = module.known, reader_of(module.known)
     body = wire.rstrip(b"\r\n")
     with suppress(DecodeError):
         modbus.unseal(wire)
@@ -41,7 +42,7 @@ def dcon_causes(wire: bytes, reader: DconReader, known: Known, asked: bytes | No
     if _is_noise(wire):
         yield "noise: another baud rate or parity?"
         return
-    yield from _checksum_causes(body, known, asked)
+    yield from _checksum_causes(body, module, asked)
     upper = body.upper()
     if upper != body and _name(reader, upper, asked):
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
@@ -72,23 +73,33 @@ def _model_causes(body: bytes, known: Known, asked: bytes) -> Iterator[str]:
                 yield f"it is {name} of other models than an {known.model.value}: {models}"
 
 
-def _checksum_causes(body: bytes, known: Known, asked: bytes | None) -> Iterator[str]:
-    plain = reader_of(evolve(known, checksum=False))
-    shorter, last = body[:-2], body[-2:].decode("ascii", "replace")
-    name = _name(plain, body, asked) if known.checksum else None
+def _checksum_causes(body: bytes, module: Module, asked: bytes | None) -> Iterator[str]:
+    plain = reader_of(evolve(module.known, checksum=False))
+    learned = next((fact for fact in module.learned if fact.name == "checksum"), None)
+    asked_with = asked is not None and _name(plain, asked.rstrip(b"\r"), None) is None
+    name = _name(plain, body, asked) if module.known.checksum or asked_with else None
     if name:
-        yield f"without a checksum it is {name}; the checksum would be {dcon.checksum(body):02X}"
-    elif (
-        body
-        and (asked or is_command(body))
-        and _name(plain, shorter, asked)
-        and not last.strip("0123456789abcdefABCDEF")
-    ):
-        name, right = _name(plain, shorter, asked), f"{dcon.checksum(shorter):02X}"
-        if last.upper() == right:
-            yield f"{last} is the checksum of {name}; no checksum was expected"
-        else:
-            yield f"{last} in place of a checksum? that of {name} would be {right}"
+        had = f", but {learned.where} had one" if learned else "" if module.known.checksum else _ASKED_WITH
+        yield f"without a checksum it is {name}{had}; the checksum would be {dcon.checksum(body):02X}"
+        return
+    for count in _SUMS if body and (asked or is_command(body)) else ():
+        shorter, last = body[:-count], body[-count:].decode("ascii", "replace")
+        name = None if last.strip("0123456789abcdefABCDEF") else _name(plain, shorter, asked)
+        if name:
+            right = f"{dcon.checksum(shorter):02X}"
+            if count > _SUMS[0]:
+                if int(last, 16) == sum(shorter):
+                    yield f"{last} is the whole sum: the checksum of {name} is its last two digits, {right}"
+            elif last.upper() == right:
+                had = f"but {learned.where} had none" if learned else "no checksum was expected"
+                yield f"{last} is the checksum of {name}{',' if learned else ';'} {had}"
+            else:
+                yield f"{last} in place of a checksum? that of {name} would be {right}"
+
+
+_ASKED_WITH = ", but the command had one"
+_SUMS = (2, 3, 4)
+"""Digits of a checksum, and of the sums that it is the last byte of."""
 
 
 def _name(reader: DconReader, body: bytes, asked: bytes | None) -> str | None:

@@ -2,16 +2,13 @@
 
 import re
 
-from i7000.dissect.spelling import hex_runs, wire_of, without_numbers
+from i7000.dissect.in_bytes import begins_like_a_frame
+from i7000.dissect.spelling import DIRECTIONS, decimal_runs, hex_runs, loose_hex_runs, wire_of, without_numbers
 from i7000.settings import Protocol
 
-__all__ = ["in_place_of_a_frame"]
+__all__ = ["in_place_of_a_frame", "is_direction"]
 
-_DIRECTION = re.compile(
-    r"[\Wz_]*(?:(?:tx|rx|sent|send|recv|received?|writ(?:e|ten)|read|re(?:quest|sponse|ply)|query|answer|command|out|in"
-    r"|host|master|slave)[\Wz_]*){0,2}",
-    re.IGNORECASE,
-)
+_DIRECTION = re.compile(rf"[\Wz_]*(?:(?:{DIRECTIONS})[\Wz_]*){{0,2}}", re.IGNORECASE)
 """What may stand beside a frame: a time, which is crossed out, and words for its direction."""
 _LEADING = re.compile(r"[%#$~@!?]|(?<![-=<>])>(?!\s*[%#$~@!?>])")
 """A leading character, and no arrow."""
@@ -19,7 +16,16 @@ _HEADING = bytes(range(256))
 """What stands above the columns of a dump."""
 _FEWEST = 2
 _FEWEST_IN_A_WORD = 5
+_FEWEST_NUMBERS = 4
+_LETTER = re.compile("[A-Fa-f]")
+_NOT_HEX = re.compile(r"\d{3}|[ ,\[({]-\d")
+"""What shows that numbers are in hex without leading zeros, or in decimal; of those without, it is unknown."""
 """The fewest bytes that are not a plain number, if the protocol is unknown."""
+
+
+def is_direction(beside: str) -> bool:
+    """Return whether what stands beside a frame is nothing but a time, which is crossed out, and a direction."""
+    return bool(_DIRECTION.fullmatch(beside))
 
 
 def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
@@ -40,11 +46,17 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             many = len(run) >= (_FEWEST if words else _FEWEST_IN_A_WORD) and not text.strip().isdecimal()
             wire = wire_of(run)
             heading = wire == _HEADING[: len(wire)]
-            if (protocol is not None or (many and not heading)) and _DIRECTION.fullmatch(beside):
+            if (protocol is not None or (many and not heading)) and is_direction(beside):
                 return wire
+        for runs, shown_by in ((loose_hex_runs, _LETTER), (decimal_runs, _NOT_HEX)):
+            for run in runs(crossed):
+                start, end = run[0].start, run[-1].end
+                enough = len(run) >= _FEWEST_NUMBERS and begins_like_a_frame(run)
+                if enough and shown_by.search(crossed, start, end) and is_direction(crossed[:start] + crossed[end:]):
+                    return wire_of(run)
     if protocol is Protocol.DCON:
         first = _LEADING.search(crossed)
-        if first and _DIRECTION.fullmatch(crossed[: first.start()]):
+        if first and is_direction(crossed[: first.start()]):
             body = text[first.start() :].rstrip("\r\n")
             ended = body[0] == ">" or text.endswith("\r")  # A blank before the carriage return was on the wire.
             return (body if ended else body.rstrip()).encode("utf-8", "surrogateescape") + b"\r"

@@ -79,6 +79,7 @@ class DconReader:
         self._places = tuple(places for places in (numbered[: len(defaults)], numbered[len(defaults) :]) if places)
         self._answers = lru_cache(maxsize=_REMEMBERED)(self._answer_stages)
         self._fit = lru_cache(maxsize=_REMEMBERED)(self._fit_of)
+        self._facts = lru_cache(maxsize=_REMEMBERED)(lambda fit: tuple(self._facts_of(fit)))
 
     def meanings(self, frame: bytes, asked: bytes | None = None) -> tuple[Meaning, ...]:
         r"""Return what a frame can mean, as the response to `asked` if that is given.
@@ -128,10 +129,10 @@ class DconReader:
             found.command, dcon.SetConfiguration
         ):
             fit = Fit((found.group.profile,))
-        facts = tuple(self._facts(fit)) if readings else ()
+        facts = self._facts(fit) if readings else ()
         return Meaning(found.message, found.command, fit, readings, facts=facts, misfit=misfit)
 
-    def _facts(self, fit: Fit) -> Iterator[Fact]:
+    def _facts_of(self, fit: Fit) -> Iterator[Fact]:
         """Yield what readings rest on: what is known, and what they have by default."""
         known = self._known
         by_default = fit.profiles == (known.default,)
@@ -322,7 +323,11 @@ def _readings(
         sure = type_code is not None
         try:
             reading = decode_field(
-                text, type_code or TypeCode.V_10, data_format, legacy=profile.legacy_sentinels, lenient=not sure
+                text,
+                TypeCode.V_10 if type_code is None else type_code,
+                data_format,
+                legacy=profile.legacy_sentinels,
+                lenient=not sure,
             )
         except DecodeError as error:
             misfit = misfit or error

@@ -42,9 +42,11 @@ class Line(NamedTuple):
     part: bytes
     """Where no frame is good, the bytes that the line spells in hex: a part of a frame that is cut over several lines,
     perhaps."""
+    start: int
+    """Where they begin."""
 
 
-_NOTHING = Line((), b"")
+_NOTHING = Line((), b"", 0)
 
 
 def find(text: str) -> tuple[Found, ...]:
@@ -89,7 +91,7 @@ def read_line(text: str) -> Line:
     runs = [_without_column(text, run) for run in hex_runs(crossed)]
     wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
-    columns = [wire for wire in wires if len(wire) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
+    columns = [run for run in runs if len(run) >= SHORTEST_RUN] if len(text) <= _TWICE_WITHIN else []
     taken = bytearray(len(text))
     for found in _in_strings(text):
         if _repeats(found, text, columns):
@@ -98,22 +100,58 @@ def read_line(text: str) -> Line:
             candidates.append(found)
     damaged = [found for found in candidates if found.kind is Kind.DAMAGED and _is_free(taken, found)]
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
-    if not good:
+    counter = next((found for found in good if _may_be_a_counter(text, found)), None)
+    if not good or good == [counter]:
         crossed = _without_hex(crossed, runs)
         known = set(wires)
         for numbers in (loose_hex_runs, decimal_runs):
             fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
             good += [found for run in fresh for found in good_in_run(text, run)]
-    part = b"" if good else max(wires, key=len, default=b"")
-    if not good and not damaged:
-        return Line((), part)
+    good = [found for found in good if found is not counter] or good
+    longest = [] if good else max(runs, key=len, default=[])
+    part, start = wire_of(longest), longest[0].start if longest else 0
+    damaged = [found for found in damaged if not _is_number(text, found, beside=good)]
+    return Line(_chosen(text, (*_longest_first(good), *_longest_first(damaged))), part, start)
+
+
+def _chosen(text: str, candidates: tuple[Found, ...]) -> tuple[Found, ...]:
+    """Choose those that no other one before them overlaps."""
+    if not candidates:
+        return ()
     taken = bytearray(len(text))
     chosen = []
-    for found in (*_longest_first(good), *_longest_first(damaged)):
+    for found in candidates:
         if _is_free(taken, found):
             _take(taken, found)
             chosen.append(found)
-    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part)
+    return tuple(sorted(chosen, key=attrgetter("start")))
+
+
+_DECIMAL_AFTER = pattern(r"(?:[ ,;\-]{1,2})\d{3}(?![0-9A-Za-z])")
+_DECIMAL_BEFORE = pattern(r"(?<![0-9A-Za-z])\d{3}[ ,;\-]{1,2}$")
+_DIGITS_APART = pattern(r"\d\d(?:[ ,;\-]{1,2}\d\d)*")
+
+
+def _is_number(text: str, found: Found, beside: list[Found]) -> bool:
+    """Return whether bytes in hex are a number beside a good frame, or a part of numbers in decimal.
+
+    Special: what shows numbers in decimal is one of three digits among them: ``1-104-10-16``.
+    """
+    if beside and text[found.start : found.end].isdecimal():
+        return len(found.wire) > 1
+    if not _DIGITS_APART.fullmatch(text, found.start, found.end):
+        return False
+    before = text[max(0, found.start - len("z123, ")) : found.start]
+    return bool(_DECIMAL_AFTER.match(text, found.end) or _DECIMAL_BEFORE.search(before))
+
+
+_COUNTER = pattern(r"\s*#\d\d\s+(?![-=>|:,;!?]|<[-=]|[A-Za-z]*:)")
+
+
+def _may_be_a_counter(text: str, found: Found) -> bool:
+    """Return whether a command is the number of the line: nothing stands before it, and no response behind it."""
+    counter = _COUNTER.match(text)
+    return counter is not None and counter.start() <= found.start < found.end <= counter.end()
 
 
 _LETTER = pattern("[A-Fa-f]")
@@ -130,7 +168,7 @@ def _without_hex(text: str, runs: list[Run]) -> str:
     at = 0
     for run in runs:
         start, end = run[0].start, run[-1].end
-        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, start, end):
+        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, run[1].start, end):
             kept += (text[at:start], "z" * (end - start))
             at = end
     return "".join((*kept, text[at:])) if kept else text
@@ -168,7 +206,7 @@ def _in_strings(text: str) -> Iterator[Found]:
     """Find frames in strings with escapes, and those that are written as text."""
     for run, usual in literal_runs(text):
         if not _is_text(wire_of(run)):
-            yield from in_run(text, run) if usual else good_in_run(text, run)
+            yield from in_run(text, run, is_string=True) if usual else good_in_run(text, run)
     yield from in_text(text)
 
 
@@ -180,10 +218,17 @@ def _is_text(wire: bytes) -> bool:
     return not wire.translate(None, _PRINTABLE)
 
 
-def _repeats(found: Found, text: str, columns: list[bytes]) -> bool:
-    """Return whether a hex run of the line has the same bytes, or those that are shown as the same text."""
+def _repeats(found: Found, text: str, columns: list[Run]) -> bool:
+    """Return whether hex elsewhere in the line has the same bytes, or those that are shown as the same text."""
     written = text[found.start : found.end]
-    return any(found.wire in column or written in _shown(column) for column in columns)
+    for run in columns:
+        others = run
+        if run[0].start < found.end and found.start < run[-1].end:
+            others = [byte for byte in run if byte.end <= found.start or found.end <= byte.start]
+        column = wire_of(others)
+        if found.wire in column or written in _shown(column):
+            return True
+    return False
 
 
 def _shown(wire: bytes) -> str:

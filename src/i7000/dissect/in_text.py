@@ -1,12 +1,12 @@
 """DCON frames that a line writes as text, with any spelling of the carriage return, or with none."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from i7000.dcon import LONGEST_FRAME
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped, report
-from i7000.dissect.spelling import text_of
+from i7000.dissect.spelling import DIRECTIONS, UNITS, in_url, text_of, without_numbers
 
 __all__ = ["in_text"]
 
@@ -18,6 +18,15 @@ _CLOSING = "\"'`)]}>,;.|"
 _CUT = pattern(r"[\"'`<,;|&)\]}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
 _ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
+_BARE = len("$01")
+_NEAR = 40
+"""Characters beside something that show whether it stands in a sentence."""
+_INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|(?<![^\W_])(?:z+|(?:{DIRECTIONS})[\W_]*))[ ]*$")
+"""What stands before a frame: nothing, a time or a number, a word for the direction, or a sign."""
+_MEASURED = pattern(rf"[~@#$]\d+(?:(?:\.\d+)?\s?(?:{UNITS})\b|:\d\d(?!\d))")
+"""``~100 ms``, ``@12:00``."""
+_NO_TEXT = pattern("[\udc80-\udcff]")
+"""A byte that is no UTF-8, as `surrogateescape` decodes it: sentences have none."""
 _NUMBERED = pattern(r">[+-]\d")
 
 
@@ -25,7 +34,20 @@ def in_text(text: str) -> Iterator[Found]:
     """Find frames from a leading character to a carriage return, a blank, a quotation mark or a bracket."""
     if not _MAY_LEAD.search(text):
         return
-    characters, places = text_of(text)
+    frames = list(_frames(*text_of(text)))
+    if not in_url(text):
+        yield from frames
+        return
+    others = _frames(*text_of(text, url=True))
+    encoded = [it for it in others if not text.startswith(it.wire[:-1].decode(), it.start)]
+    taken = bytearray(len(text))
+    for found in sorted((*encoded, *frames), key=lambda it: it.kind is Kind.DAMAGED):
+        if taken.find(1, found.start, found.end) < 0:
+            taken[found.start : found.end] = bytes([1]) * (found.end - found.start)
+            yield found
+
+
+def _frames(characters: str, places: Sequence[int]) -> Iterator[Found]:
     at = 0
     while leading := _LEADING.search(characters, at):
         start = leading.start()
@@ -55,7 +77,20 @@ def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
     ends = list(_ends(characters, start, None if written is None else written.end()))
     shaped = (end for end in ends if is_shaped(characters[start:end]))
     end = next(shaped, None)
-    return (Kind.DAMAGED, ends[0]) if end is None else (Kind.DCON, end)
+    if written is None and _MEASURED.match(characters, start):
+        return None, start
+    if end is not None:
+        return Kind.DCON, end
+    return (Kind.DAMAGED if written is not None or _is_apart(characters, start, ends[0]) else None), ends[0]
+
+
+def _is_apart(characters: str, start: int, end: int) -> bool:
+    """Return whether something stands where a frame does, and not in a sentence: a bare address, if nothing follows."""
+    before = without_numbers(characters[max(0, start - _NEAR) : start])
+    if not _INTRODUCED.search(before):
+        return False
+    after = characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
+    return end - start > _BARE or not after or _NO_TEXT.match(after) is not None
 
 
 def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:

@@ -172,8 +172,11 @@ def _typed(known: tuple[TypeCode | None, ...] | None, profile: Profile) -> Profi
     if len(types) == 1:
         types *= profile.channels
     if None in types:
-        if any(types[profile.channels :]):
+        if any(code is not None for code in types[profile.channels :]):
             raise EncodeError("types", len(types), f"at most {profile.channels}: {profile.name}", "1.3")
+        for code in types:
+            if code is not None:
+                profile.check_type_code(code, "1.3", field="types")
         types = (*types, *[None] * profile.channels)[: profile.channels]
         types = tuple(map(_first, types, profile.type_codes))
     return evolve(profile, type_codes=types)  # type: ignore[arg-type] # There is no None in it now.
@@ -198,7 +201,7 @@ class Origin(StrEnum):
     LEARNED = "learned"
     """The traffic showed it."""
     ASSUMED = "assumed"
-    """It is the factory default."""
+    """Nothing shows it: it is the factory default, or what a broadcast set, which no module confirms (E94)."""
 
 
 @frozen
@@ -213,15 +216,20 @@ class Fact:
     """The frame that showed it, and from which on it holds: ``frame 3``."""
     changed: bool = False
     """Whether the frame accepted a change, so that what was given no longer holds."""
+    doubted_by: str = ""
+    """The kind of the response that contradicted it, if none of this kind has fitted since: ``AnalogInputs``."""
 
     def __attrs_post_init__(self) -> None:
-        check_fields(self, {"name": (str,), "origin": (Origin,), "where": (str,), "changed": (bool,)})
+        check_fields(self, _FACT_KINDS)
         try:
             hash(self.value)
         except TypeError:
             raise InvalidValueError("value", self.value, "what can be hashed", "") from None
 
 
+_FACT_KINDS: dict[str, tuple[type, ...]] = {
+    "name": (str,), "origin": (Origin,), "where": (str,), "changed": (bool,), "doubted_by": (str,),
+}  # fmt: skip
 _KNOWN = fields_dict(Known)
 _NOTHING: Mapping[Any, Any] = MappingProxyType({})
 
@@ -276,6 +284,11 @@ class Module:
             return Module(self.given, {**self.facts, fact.name: fact})
         except EncodeError:
             return self
+
+    @cached_property
+    def in_doubt(self) -> bool:
+        """Whether a response contradicted a learned fact, which still holds."""
+        return any(fact.doubted_by for fact in self.facts.values())
 
     def without(self, names: Iterable[str]) -> "Module":
         """Drop facts that were learned."""

@@ -10,7 +10,7 @@ bytes raise.
 from i7000.arguments import as_bytes, check_type
 from i7000.dissect.heard import Heard, Line, Place, updated
 from i7000.dissect.line_dcon import hear_dcon
-from i7000.dissect.line_modbus import hear_modbus
+from i7000.dissect.line_modbus import hear_broadcast, hear_modbus
 from i7000.dissect.stream import split
 from i7000.errors import ArgumentError, DecodeError, Fault
 from i7000.settings import Protocol
@@ -89,7 +89,9 @@ def _hear(line: Line, wire: bytes, protocol: Protocol, place: Place, *, sent: bo
     if not wire:
         error = DecodeError(Fault.LENGTH, wire, allowed="a frame")
         return updated(line, count=place.number), Heard(place, wire, protocol, error=error)
-    return (hear_dcon if protocol is Protocol.DCON else hear_modbus)(line, wire, place, sent)
+    if protocol is Protocol.DCON:
+        return hear_dcon(line, wire, place, sent)
+    return (hear_modbus if wire[0] else hear_broadcast)(line, wire, place, sent)
 
 
 def _next(line: Line, where: str | None = None) -> Place:

@@ -12,7 +12,7 @@ from i7000.dissect.dcon import DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.heard import Asked, Commands, Direction, Heard, Line, Place, updated
 from i7000.dissect.known import Fact, Known, Module, fact_words, lacking_type
-from i7000.dissect.learn import learn, with_facts
+from i7000.dissect.learn import doubt, learn, trust, with_facts
 from i7000.dissect.meaning import Meaning
 from i7000.errors import DecodeError
 from i7000.settings import Protocol
@@ -81,8 +81,10 @@ def _hear_response(line: Line, wire: bytes, place: Place) -> tuple[Line, Heard]:
     elif read.error is None:
         commands = Commands(None, None, before, wire)
     sender = _sender(wire, address, asked)
-    if sender is not None and read.dropped:
-        knowledge = knowledge.put(sender, module.without(read.dropped))
+    if sender is not None and (read.dropped or module.in_doubt) and read.meanings:
+        kind = type(read.meanings[0].message).__name__
+        doubted = doubt(module, read.dropped, kind) if read.dropped else module if read.error else trust(module, kind)
+        knowledge = knowledge.put(sender, doubted)
     if sender is not None and read.error is None and len(read.meanings) == 1:
         knowledge, wrong = learn(knowledge, sender, read.meanings[0], place.where, read.shown)
         if wrong:
@@ -127,7 +129,7 @@ class _Read(NamedTuple):
     shown: tuple[str, ...] = ()
     """What the frame shows by itself: names of facts whose factory default it does not fit."""
     dropped: tuple[str, ...] = ()
-    """Names of the facts that were learned, and that it contradicts."""
+    """Names of the facts that were learned, and that it contradicts: they are in doubt, or dropped if they were."""
     answers: bool = False
     """Whether it answers the command that it was read with."""
 
@@ -151,9 +153,9 @@ def _read(module: Module, wire: bytes, asked: bytes | None) -> _Read:
     except DecodeError as error:
         reader = reader_of(module.known)
         candidates = () if asked is None else _alone(reader, wire)
-        causes = tuple(dcon_causes(wire, reader, module.known, asked))
+        causes = tuple(dcon_causes(wire, module, asked))
         return _Read(error=error.with_traceback(None), candidates=candidates, notes=causes)
-    contradictions = tuple(f"not {fact_words(fact)}, which {fact.where} said" for fact in dropped)
+    contradictions = tuple(map(_refuted, dropped))
     known = module.known
     shown, differing = _differences(known, meanings) if not dropped else ((), "")
     notes = (f"not as from the factory: {differing}",) if differing else ()
@@ -164,6 +166,8 @@ def _read(module: Module, wire: bytes, asked: bytes | None) -> _Read:
         elif lacking:
             notes = (*notes, lacking)
     meanings = tuple(with_facts(meaning, module) for meaning in meanings)
+    if dropped:
+        meanings = tuple(evolve(meaning, refuted=dropped) for meaning in meanings)
     names = tuple(fact.name for fact in dropped)
     answers = any(meaning.command for meaning in meanings)
     return _Read(meanings, meanings[0].misfit, (), notes, contradictions, shown, names, answers)
@@ -207,6 +211,13 @@ def _read_without(
     return None if found[0].misfit else found
 
 
+def _refuted(fact: Fact) -> str:
+    """Return that a frame does not fit what was learned."""
+    if fact.name == "checksum":
+        return f"no checksum, but {fact.where} had one" if fact.value else f"a checksum, but {fact.where} had none"
+    return f"not {fact_words(fact)}, which {fact.where} said"
+
+
 def _alone(reader: DconReader, wire: bytes) -> tuple[Meaning, ...]:
     """Return what a frame could be that does not answer the command before it."""
     try:
@@ -227,7 +238,10 @@ _SHOWN = {
 def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[tuple[str, ...], str]:
     """Return what is certainly not as from the factory, which is assumed if the model is known; and that in words."""
     default = known.default
-    if default is None or any(default in meaning.fit.profiles for meaning in meanings):
+    if default is None:
+        sealed = known.checksum is None and all(meaning.checksum for meaning in meanings)
+        return (("checksum",) if sealed else ()), ""
+    if any(default in meaning.fit.profiles for meaning in meanings):
         return (), ""
     profiles = [profile for meaning in meanings for profile in meaning.fit.profiles]
     unknown = {name: getattr(default, name) for name in _SHOWN if getattr(known, name) is None}

@@ -7,15 +7,16 @@ from attrs import evolve
 
 from i7000 import modbus
 from i7000.dissect.causes import address_notes, modbus_causes, register_notes
+from i7000.dissect.exchanges import TEACHING
 from i7000.dissect.heard import Asked, Direction, Heard, Line, Place, Requests, updated
 from i7000.dissect.known import Known
-from i7000.dissect.learn import learn, teaches, with_facts
+from i7000.dissect.learn import learn, learn_from_broadcast, with_facts
 from i7000.dissect.meaning import Meaning
 from i7000.dissect.modbus import ModbusRead, ModbusReader
 from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.settings import Protocol
 
-__all__ = ["hear_modbus"]
+__all__ = ["hear_broadcast", "hear_modbus"]
 
 _NOTHING = ModbusRead(None)
 _READERS = 64
@@ -94,6 +95,14 @@ def hear_modbus(line: Line, wire: bytes, place: Place, sent: bool | None) -> tup
     )  # fmt: skip
 
 
+def hear_broadcast(line: Line, wire: bytes, place: Place, sent: bool | None) -> tuple[Line, Heard]:  # noqa: FBT001
+    """Read a frame of address 0, which can be a request to all modules: all of them are taken to follow it (E94)."""
+    line, heard = hear_modbus(line, wire, place, sent)
+    if heard.direction is Direction.REQUEST:
+        line = updated(line, knowledge=learn_from_broadcast(line.knowledge, heard.meanings[0], place.where))
+    return line, heard
+
+
 def _request_notes(request: Meaning, alone: Meaning | None, fault: DecodeError | None, line: Line) -> Iterator[str]:
     """Yield what has to be known of a request: what else it could be, and what is likely to be meant."""
     asked, in_step, _ = line.requests
@@ -101,7 +110,7 @@ def _request_notes(request: Meaning, alone: Meaning | None, fault: DecodeError |
         yield f"or a wrong response to {asked.place.where}: {fault}"
     elif alone and not asked and not in_step:
         yield f"or a response, {type(alone.message).__name__}, of which the request is not there"
-    if getattr(request.message, "address", None) == modbus.BROADCAST and teaches(request.message):
-        yield "a broadcast: no module confirms it, so whether its settings hold is unknown"
+    if getattr(request.message, "address", None) == modbus.BROADCAST and type(request.message) in TEACHING:
+        yield "a broadcast, which no module confirms: taken to hold from here on for all that have the register (E94)"
     yield from register_notes(request)
     yield from address_notes(getattr(request.message, "address", None), line.knowledge)

@@ -56,6 +56,8 @@ class Item(NamedTuple):
     """The value in words; for a reading, the word in hex."""
     reading: Reading | None = None
     type_code: TypeCode | None = None
+    fact: tuple[str, Any] | None = None
+    """The property of the module that it shows or sets, and its value: see `i7000.modbus.Register.fact`."""
 
 
 @frozen(eq=False)
@@ -101,6 +103,8 @@ class Meaning:
     notes: tuple[str, ...] = ()
     misfit: DecodeError | None = None
     """Why the first reading without a value cannot be one of its type."""
+    refuted: tuple[Fact, ...] = ()
+    """The learned facts that it does not fit, and was read without."""
 
     @property
     def protocol(self) -> Protocol:
@@ -141,7 +145,7 @@ class Meaning:
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """The names of the facts that are factory defaults."""
+        """The names of the facts that nothing shows: factory defaults, and what a broadcast set."""
         return tuple(fact.name for fact in self.facts if fact.origin is Origin.ASSUMED)
 
     @property

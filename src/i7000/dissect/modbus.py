@@ -44,6 +44,7 @@ class ModbusReader:
         self._profiles = known.modbus
         self._fits: dict[tuple[int, ...], Fit] = {}
         remembered = lru_cache(maxsize=_REMEMBERED)
+        self._facts = remembered(lambda fit: tuple(self._facts_of(fit.profiles[0])))
         self.request = remembered(self._request)
         self.response = remembered(self._response)
         self.alone = remembered(self._alone)
@@ -97,15 +98,14 @@ class ModbusReader:
         profile = found[0] if self._known.model else None
         touched = tuple(items(message, request, profile))
         readings = tuple(map(_reading, filter(_READING, touched)))
-        facts = tuple(self._facts(found[0])) if readings else ()
         availability = (request or message).availability
         notes: tuple[str, ...] = ()
         if profile and availability in profile.refused:
             notes = (f"{profile.name} has no {message.title} by Modbus: {availability.scope}",)
         fit = self._fits.setdefault(tuple(map(id, found)), Fit(found))
-        return Meaning(message, request, fit, readings, touched, facts, notes)
+        return Meaning(message, request, fit, readings, touched, self._facts(fit) if readings else (), notes)
 
-    def _facts(self, profile: Profile) -> Iterator[Fact]:
+    def _facts_of(self, profile: Profile) -> Iterator[Fact]:
         """Yield what readings rest on: what is known, and what they have by default."""
         known = self._known
         for name, value in (("types", profile.type_codes), ("modbus_data_format", profile.modbus_data_format)):

@@ -10,6 +10,7 @@ from i7000 import modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.shapes import plain_shapes
+from i7000.dissect.spelling import in_url
 
 __all__ = ["find_plain"]
 
@@ -58,7 +59,8 @@ def find_plain(text: str) -> tuple[Kind, bytes, int, int] | None:
         return None
     last = line.lastindex
     if last != _HEX:
-        return Kind.DCON, line[1].encode() + b"\r", line.start(1), line.end(last or 1)
+        found = Kind.DCON, line[1].encode() + b"\r", line.start(1), line.end(last or 1)
+        return None if line[1][0] == "%" and in_url(text) else found
     start, end = line.span(_HEX)
     wire = _bytes_of(text[start:end], line[_GAP])
     if len(wire) < _SHORTEST:

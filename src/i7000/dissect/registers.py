@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from i7000 import DecodeError, Firmware, LineSettings, Profile, modbus
 from i7000.dissect.meaning import Item
-from i7000.modbus import Area, Kind, Register, RegisterMap
+from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 
 __all__ = ["items"]
 
@@ -59,7 +59,7 @@ def items(message: modbus.Message, request: modbus.Request[Any] | None, profile:
     values = _values(message)
     for it in _places(profile, area, starts[0], len(values) or getattr(message, "count", 1)):
         if values:
-            yield from _valued(profile, it, values[it.at : it.at + it.used])
+            yield from _valued(profile, it, values[it.at : it.at + it.used], written=request is None)
         else:
             yield from it.empty
 
@@ -115,7 +115,7 @@ def _place(profile: Profile | None, row: Register, address: int, at: int, left: 
     return _Place(at, used, row, channel, empty, part)
 
 
-def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> Iterator[Item]:
+def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...], *, written: bool) -> Iterator[Item]:
     row, channel = place.row, place.channel
     number, name, _, _, _, words, *_ = empty = place.empty[0]
     if profile is None or not name or place.part:
@@ -126,7 +126,7 @@ def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> It
     else:
         channels = None if channel is None else range(channel, channel + 1)
         try:
-            value = _map(profile).decode(row.name, sent, channels=channels)
+            value: Any = _map(profile).decode(row.name, sent, channels=channels)
         except DecodeError:
             yield Item(number, name, channel, sent[0], None, f"{_raw(row, sent[0])}, not defined")
             return
@@ -134,7 +134,10 @@ def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...]) -> It
         if row.kind is Kind.RECORD:
             yield from _log(empty, value)
         else:
-            yield Item(number, name, channel, _plain(value), row.unit, row.describe(value))
+            fact = None
+            if row.fact and not (written and row.access is Access.READ):
+                fact = row.fact, value
+            yield Item(number, name, channel, _plain(value), row.unit, row.describe(value), fact=fact)
 
 
 def _readings(profile: Profile, place: _Place, sent: tuple[int, ...]) -> Iterator[Item]:

@@ -13,10 +13,13 @@ from typing import NamedTuple
 from i7000.dissect.patterns import pattern
 
 __all__ = [
+    "DIRECTIONS",
+    "UNITS",
     "Byte",
     "Run",
     "decimal_runs",
     "hex_runs",
+    "in_url",
     "literal_runs",
     "loose_hex_runs",
     "text_of",
@@ -46,10 +49,15 @@ def wire_of(run: Run) -> bytes:
 
 _DATE = r"\d{3}([-/.])\d\d?\1\d\d?|\d?([/.])\d\d?\2\d{2,4}"
 _TIME = r"\d?:\d\d(?::\d\d(?:[.,:]\d+)?)?(?:Z|[-+]\d\d:?\d\d)?"
-_UNIT = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
+DIRECTIONS = (
+    r"tx|rx|sent|send|recv|received?|writ(?:e|ten)|read|re(?:quest|sponse|ply)|query|answer|command|out|in|host|master"
+    r"|slave"
+)
+"""Words for the direction of a frame."""
+UNITS = r"ms|us|s|sec|seconds?|bytes?|chars?|characters?"
 _NUMBERS = pattern(
     rf"\d(?:(?<![\w:.\-/].)(?:(?:{_DATE})(?:[T_ ]+\d{_TIME})?|{_TIME}|\d*\.\d+)(?!\w|[:.\-/]\w)"
-    rf"|(?<!\w.)\d*(?=\s?(?:{_UNIT})\b))",
+    rf"|(?<!\w.)\d*(?=\s?(?:{UNITS})\b))",
     re.DOTALL,
 )
 """Dates, times, decimal fractions, and numbers with a unit: they look like bytes, and are not.
@@ -57,9 +65,10 @@ _NUMBERS = pattern(
 All begin with a digit, which the search for them is quick to find; the patterns of dates and times are without it.
 """
 _OFFSET = pattern(
-    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$)))"
+    r"\s*(?:(?:0x)?[0-9A-Fa-f]{4,16}(?=(?::\s|\s\s)\s*[0-9A-Fa-f]{2})|[0-9A-Fa-f]{6,8}(?=\s[0-9A-Fa-f]{2}(?:\s|$))"
+    r"|\d+-\d+(?=\s+[^\W\d]{3}))"
 )
-"""The offset at the start of a row of a dump."""
+"""The offset at the start of a row of a dump, or the samples that a byte takes: ``1000-1009 UART``."""
 
 
 def without_numbers(text: str) -> str:
@@ -71,7 +80,7 @@ def without_numbers(text: str) -> str:
 
 
 _HEX = pattern(
-    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]|u00)([0-9A-Fa-f]{2})"
+    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]\{?|u00)([0-9A-Fa-f]{2})\}?"
     r"|(?<![0-9A-Za-z].)(?:(?<=0)[xX]|(?<=&)[hH]|(?<=1)6#)((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=0)[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=[0-9A-Fa-f])[0-9A-Fa-f](?:[0-9A-Fa-f]{2})*[hHuU]?(?![0-9A-Za-z]))",
@@ -80,6 +89,8 @@ _HEX = pattern(
 """A word of bytes; it begins with a set of characters, which the search then passes over the others for."""
 _LOOSE_HEX = pattern(r"(?<![0-9A-Za-z])(?:0[xX])?([0-9A-Fa-f]{1,2})[hH]?(?![0-9A-Za-z])")
 _DECIMAL = pattern(r"(?<![0-9A-Za-z])((?:(?<=[\s,;\[{(])-)?\d{1,3})(?![0-9A-Za-z])")
+_SHOWN = pattern(r"(?:(?<!\S)[!-~])?\((\d{3})\)(?![0-9A-Za-z(])")
+"""A byte as a character and in decimal: ``a(097)``."""
 _BETWEEN = pattern(r"[\W_]{0,8}|[\W_]{1,4}(?:CRC|crc)(?:16)?[\W_]{1,4}|\s?\(.\)[\W_]{0,4}|\)\s?\w\s?\(")
 """What can stand between two bytes: a few characters, among them one in brackets that shows a byte as text."""
 _USUALLY_BETWEEN = frozenset((" ", "", ":", ", ", "-", ",", "  ", "][", "><"))
@@ -102,7 +113,9 @@ def loose_hex_runs(text: str) -> Iterator[Run]:
 
 
 def decimal_runs(text: str) -> Iterator[Run]:
-    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``; of a signed byte too: ``[1, -54]``."""
+    """Find bytes in decimal: ``1-4-0``, ``[1, 4, 0]``, ``[001][004]``, ``a(097)``; signed bytes too: ``[1, -54]``."""
+    if _SHOWN.search(text):
+        return _runs(text, _SHOWN, lambda word: _one(word, 10))
     return _runs(text, _DECIMAL, lambda word: _one(word, 10)) if _IN_A_ROW.search(text) else iter(())
 
 
@@ -206,39 +219,58 @@ _BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
 _ENDS = rf"""
     (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD]
     | \\015 | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d
-    | \u21b5 | \$0D (?![0-9A-Za-z]) | \r
+    | \u21b5 | \$(?:0D|[Rr]) (?![0-9A-Za-z]) | \r
 """
 _LINE_FEEDS = rf"""
     [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \n
+    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a
+    | \$[LlNn] (?![0-9A-Za-z]) | \n
 """
-_SPELLED = pattern(
-    rf"(?sx) (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})"
-    r"| \\x(?P<hex>[0-9A-Fa-f]{2}) | \\u00(?P<unicode>[0-9A-Fa-f]{2}) | \\(?P<octal>[0-3][0-7]{2})"
-    r"| (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)"
+_CHARACTER = rf"""
+    (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})
+    | \\x(?P<hex>[0-9A-Fa-f]{{2}}) | \\u00(?P<unicode>[0-9A-Fa-f]{{2}}) | \\(?P<octal>[0-3][0-7]{{2}})
+    | &\#(?P<decimal>\d{{2,3}}); | &\#[xX](?P<entity>[0-9A-Fa-f]{{2}});
+    | (?P<blank>\\s|\u2420|&nbsp;|\u00b7) | (?P<greater>&gt;)
+"""
+_ENCODED = r"(?:2[1345]|3[EFef]|40|7[Ee])"
+_LEADING_IN_URL = rf"%{_ENCODED} (?: (?<=[=/?&]...) | (?= [^\s%]* %(?:0[Dd]|2[0ABDEabde]|3[Ee]) ) )"
+"""A character that begins a frame, as URLs write it: behind what is before a value, or with another one after it."""
+_SPELLED = pattern(f"(?sx) {_CHARACTER}")
+_SPELLED_IN_URL = pattern(
+    rf"(?sx) {_CHARACTER} | (?={_LEADING_IN_URL}) %(?P<lead>{_ENCODED}) | (?<=[0-9A-Za-z]) %(?P<inside>2[0ABDEabde])"
 )
-_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$0D|[(<\[{][CcLlN0aAdD]")
+_URL = pattern(f"(?x) {_LEADING_IN_URL}")
+_MAY_SPELL = pattern(r"[\\\r\n^&%\u00b7\u21b5\u2400-\u2426]|#1|\$[0RrLlNn]|[(<\[{][CcLlN0aAdD]")
 """How all of these begin."""
 _CHARACTERS = {"end": "\r", "feed": "\n", "blank": " ", "greater": ">"}
+_BASES = {"octal": 8, "decimal": 10}
 
 
-def text_of(text: str) -> tuple[str, Sequence[int]]:
+def in_url(text: str) -> bool:
+    """Return whether a line has the first character of a frame as URLs write it: ``cmd=%23012``, ``%23012%0D``."""
+    return "%" in text and bool(_URL.search(text))
+
+
+def text_of(text: str, *, url: bool = False) -> tuple[str, Sequence[int]]:
     r"""Replace every way to write a carriage return, a line feed, a blank and other characters by the character.
 
-    Shape: the characters, and where each begins in `text`; one place more is the end of `text`.
+    Shape: the characters, and where each begins in `text`; one place more is the end of `text`. With `url`, also the
+        characters that URLs encode.
 
     >>> text_of("#01<CR>")[0]
     '#01\r'
+    >>> text_of("cmd=%2301%0D", url=True)[0]
+    'cmd=#01\r'
     """
     if not _MAY_SPELL.search(text):
         return text, range(len(text) + 1)
     characters: list[str] = []
     places: list[int] = []
     at = 0
-    for found in _SPELLED.finditer(text):
+    for found in (_SPELLED_IN_URL if url else _SPELLED).finditer(text):
         kind = found.lastgroup or ""
         digits = found[kind]
-        plain = _CHARACTERS.get(kind) or chr(int(digits, 8 if kind == "octal" else 16))
+        plain = _CHARACTERS.get(kind) or chr(int(digits, _BASES.get(kind, 16)))
         characters += (text[at : found.start()], plain)
         places += range(at, found.start() + 1)
         at = found.end()

@@ -10,12 +10,13 @@ from typing import NamedTuple
 
 from i7000 import dcon, modbus
 from i7000.arguments import check_type
-from i7000.dissect.damage import in_place_of_a_frame
+from i7000.dissect.damage import in_place_of_a_frame, is_direction
 from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
 from i7000.dissect.plain import find_plain
 from i7000.dissect.repeats import is_repeat
+from i7000.dissect.spelling import without_numbers
 from i7000.errors import ArgumentError
 from i7000.settings import Protocol
 
@@ -26,6 +27,11 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 """What terminals take for a colour; many loggers write it around a line."""
 _CLOSING = re.compile(r"[\])}>\"'`,;hH]*")
 """What closes the spelling of a byte or of a frame."""
+
+
+_WORD = re.compile(r"[^\W\d_]+")
+_FEWEST_BESIDE_WORDS = 3
+"""Bytes of a part of a frame that can stand beside words which the other parts do not have."""
 
 
 class Piece(NamedTuple):
@@ -54,6 +60,8 @@ class _Part(NamedTuple):
     text: str
     found: tuple[Found, ...]
     wire: bytes
+    start: int
+    """Where the bytes begin."""
 
 
 def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -> Iterator[Piece]:
@@ -82,9 +90,13 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
         plain = find_plain(clean)
         found: tuple[Found, ...] = ()
         if plain is None:
-            found, part = read_line(clean)
-            if part and (parts or _begins(part)):
-                parts.append(_Part(number, text, found, part))
+            found, wire, start = read_line(clean)
+            if wire and (parts or _begins(wire)):
+                part = _Part(number, text, found, wire, start)
+                if parts and not _goes_on(parts[-1], part):
+                    yield from map(marked, _apart(parts, protocol))
+                    parts = []
+                parts.append(part)
                 yield from map(marked, _complete(parts, protocol))
                 continue
         if parts:
@@ -135,6 +147,19 @@ def _complete(parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
         yield from _apart(parts[:whole], protocol)
         yield from _joined(parts[whole:])
         parts.clear()
+
+
+def _goes_on(part: _Part, other: _Part) -> bool:
+    """Return whether the frame that begins in a line can go on in the next: not where a few bytes are but a number."""
+    words = _words(part), _words(other)
+    fewest = min((len(it.wire) for it, before in zip((part, other), words, strict=True) if before), default=0)
+    return words[0] == words[1] or fewest >= _FEWEST_BESIDE_WORDS
+
+
+def _words(part: _Part) -> str:
+    """Return the words before the bytes of a part; nothing if they are those for a direction."""
+    before = without_numbers(part.text)[: part.start]
+    return "" if is_direction(before) else " ".join(word for word in _WORD.findall(before) if word.strip("z"))
 
 
 def _begins(wire: bytes) -> bool:

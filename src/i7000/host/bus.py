@@ -1,35 +1,35 @@
-"""The state of a line and the four functions that drive it, with all timing (manual 2, 3).
+"""The state of a line and the functions that drive it, with all timing (manual 2, 3).
 
-A driver moves bytes and sleeps. It writes the bytes of `send` and `Transmit`, passes what it reads to `receive`, and
-calls `wake` at the time of `next_deadline`. Times are seconds of one clock that never goes back.
+A driver moves bytes and sleeps. It opens a request with `send`. It calls `receive` with the bytes that it reads, and at
+the time of `next_deadline` with what it has read by then. It writes the bytes of `Transmit`. Times are seconds of one
+clock that never goes back.
 
-Laws: one request is open at a time, and it ends in exactly one outcome, by `receive` or by `wake`. Only frames that
-arrive while the request waits can answer it. After a deadline the line stays silent for a while: a late response that
-arrives then cannot be mistaken for the response to the next request (``>`` responses have no address). For this, pass
-all received bytes to `receive` before the next `send`.
+Laws: one request is open at a time, and it ends in exactly one outcome, or by `abandon`. Only bytes that arrive after
+the request was sent can answer it. A request is sent by a call of `receive` that heard nothing: a driver that passes
+all that it reads has emptied its port by then. After a deadline the line stays silent for a while: a late response that
+arrives then cannot be mistaken for the response to the next request (``>`` responses have no address).
 """
 
 from collections.abc import Iterable
 from math import inf
 from types import NoneType
-from typing import Any, Generic, Never, TypeVar, overload
+from typing import Any, Generic, TypeVar
 
 from attrs import evolve, field
 
-from i7000 import dcon, modbus
 from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_fields, check_seconds, check_type, is_number
 from i7000.errors import DecodeError, InvalidValueError, Noise, StateError
 from i7000.frozen import frozen
-from i7000.host.events import AnyCommand, Event, Late, Rejected, Sent, TimedOut, Transmit
-from i7000.host.exchange import Exchange, answers, finish, split
+from i7000.host.events import Event, Late, Rejected, Sent, TimedOut, Transmit
+from i7000.host.exchange import Exchange, answers, finish, prepare, split
+from i7000.message import Query, Response
 from i7000.profile import Profile
 from i7000.settings import BaudRate, LineSettings
 
-__all__ = ["Bus", "Policy", "next_deadline", "receive", "send", "wake"]
+__all__ = ["Bus", "Policy", "abandon", "next_deadline", "receive", "send"]
 
-R = TypeVar("R")
-RD = TypeVar("RD", bound=dcon.Response)
-RM = TypeVar("RM", bound=modbus.Response)
+R = TypeVar("R", bound=Response)
+R_co = TypeVar("R_co", bound=Response, covariant=True)
 
 _SILENT_CHARACTERS = 3.5
 _SHORTEST_SILENCE = 0.00175
@@ -43,19 +43,19 @@ class Policy:
     Shape: `retries` is how often a request without a response is sent again; the module may then carry it out again.
         `turnaround` is the longest time from the last character of a request to the first of its response. It includes
         the time of the module (not in the manual), its response delay (40488), and the delays of adapters, operating
-        system and network. `grace` is how long the line stays silent after a deadline; a response that arrives even
-        later can be mistaken for another one.
+        system and network. `grace` is how long the line stays silent after a deadline. A response that arrives even
+        later can be mistaken for the response to another request; make it longer if your adapter can delay more.
     Unit: seconds.
     Range: 0 or more.
     Errors: `InvalidValueError` beyond the range.
 
     >>> Policy()
-    Policy(retries=2, turnaround=0.2, grace=0.2)
+    Policy(retries=2, turnaround=0.2, grace=1.0)
     """
 
     retries: int = 2
     turnaround: float = 0.2
-    grace: float = 0.2
+    grace: float = 1.0
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.retries, int) or isinstance(self.retries, bool) or self.retries < 0:
@@ -66,10 +66,10 @@ class Policy:
 
 
 @frozen
-class Pending(Generic[R]):
+class Pending(Generic[R_co]):
     """A request without an outcome yet."""
 
-    exchange: Exchange[R]
+    exchange: Exchange[R_co]
     retries: int
     """The number of retries left."""
     due: float
@@ -82,8 +82,8 @@ class Pending(Generic[R]):
 
 
 @frozen
-class Bus(Generic[R]):
-    """A line with modules; R is the type of the expected response. A new one is ``Bus[Any]()``.
+class Bus(Generic[R_co]):
+    """A line with modules; R_co is the class of the expected response. A new one is ``Bus[Response]()``.
 
     Shape: `line`, `policy` and `echo` may be changed with `attrs.evolve` between requests; the other fields are the
         state.
@@ -98,8 +98,8 @@ class Bus(Generic[R]):
     that of `i7000.modbus.ReadChannelMask` if a 00 follows: the echo is a valid response to them.
     """
 
-    pending: Pending[R] | None = None
-    last: Exchange[Any] | None = None
+    pending: Pending[R_co] | None = None
+    last: Exchange[Response] | None = None
     """The last request sent: its response may still arrive."""
     rest: bytes = b""
     """The received bytes that may still become a frame."""
@@ -124,7 +124,7 @@ class Bus(Generic[R]):
 
     @property
     def silence(self) -> float:
-        """The silence between Modbus frames in seconds: 3.5 characters."""
+        """The silence before each request in seconds: 3.5 characters. Modbus needs it; in DCON, it shows duplicates."""
         return max(_SILENT_CHARACTERS * self.character_time, _SHORTEST_SILENCE)
 
 
@@ -149,99 +149,106 @@ def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - field
     return copy
 
 
-@overload
-def send(bus: Bus[Any], command: dcon.Command[RD], profile: Profile, now: float) -> tuple[Bus[RD], bytes]: ...
-@overload
-def send(bus: Bus[Any], command: modbus.Request[RM], profile: Profile, now: float) -> tuple[Bus[RM], bytes]: ...
-@overload
-def send(bus: Bus[Any], command: dcon.Broadcast, profile: Profile, now: float) -> tuple[Bus[Never], bytes]: ...
-def send(bus: Bus[Any], command: AnyCommand, profile: Profile, now: float) -> tuple[Bus[Any], bytes]:
-    r"""Open a request and return the bytes to write now; empty during a pause, then `wake` returns them later.
+def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) -> Bus[R]:
+    r"""Open a request. Its bytes come later, as `Transmit` of `receive`.
 
-    Special: for a broadcast, only the checksum setting of `profile` is used. An incomplete frame received so far is
-        dropped.
+    Time: `next_deadline` of the result is 3.5 characters after `now`: so long, the line has to be silent. It is later
+        after a timeout and in a pause.
+    Special: for a broadcast, only the checksum setting of `profile` is used.
     Errors: `EncodeError` if the module does not have the command; `InvalidValueError` for a time that is not finite;
         `StateError` if the previous request has no outcome yet, and for a time before the last call.
     Manual: 2, 3.
 
-    >>> from i7000 import Model
-    >>> bus, wire = send(Bus[Any](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
-    >>> wire
-    b'$012\r'
+    >>> from i7000 import Model, dcon
+    >>> bus = send(Bus[Response](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
+    >>> bus, events = receive(bus, b"", next_deadline(bus))
+    >>> events
+    (Transmit(wire=b'$012\r'),)
     >>> receive(bus, b"!01050600\r", 0.1)[1][0].response.type_code
     <TypeCode.V_2_5: 5>
     """
     check_type("bus", bus, Bus)
-    check_type("command", command, dcon.Command, dcon.Broadcast, modbus.Request)
+    check_type("command", command, Query)
     check_type("profile", profile, Profile)
     check_clock(now, bus.clock)
     if bus.pending:
         raise _still_open(bus.pending, now)
-    exchange = Exchange[Any].of(command, profile)
-    due = max(now, bus.quiet_until, bus.heard_at + _silence(bus, exchange))
+    exchange = prepare(command, profile)
+    due = max(bus.quiet_until, max(now, bus.heard_at) + bus.silence)
     pending = Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange))
-    bus, events = _transmit(_changed(bus, pending=pending, clock=now), now)
-    return bus, b"".join(event.wire for event in events)
+    return _changed(bus, pending=pending, clock=now)
 
 
-def _still_open(request: Pending[Any], now: float) -> StateError:
-    command = request.exchange.command
-    to = "all" if isinstance(command, dcon.Broadcast) else f"{command.address:02X}"
-    what = f"{type(command).__name__} to {to}, due in {max(0.0, request.due - now):.2f} s"
-    return StateError(f"a request is still open ({what}): call receive() or wake() until it ends")
+def _still_open(request: Pending[Response], now: float) -> StateError:
+    to = f"{address:02X}" if (address := getattr(request.exchange.command, "address", 0)) else "all"
+    what = f"{type(request.exchange.command).__name__} to {to}, due in {max(0.0, request.due - now):.2f} s"
+    return StateError(f"a request is still open ({what}): call receive() until it ends, or abandon()")
 
 
-def receive(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Process received bytes, in any pieces, and return the events.
+def receive(bus: Bus[R], heard: bytes, now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
+    """Process received bytes, in any pieces, and the time; return the events in the order in which they happened.
 
-    Shape: the events are in the order in which things happened.
+    Call it when bytes arrived, and at `next_deadline` with the bytes read by then. Empty bytes mean that the port has
+    nothing to read. Calling it more often is harmless.
+
+    Time: a request is sent by the first call at or after its time that heard nothing. On a line that is never silent,
+        it is sent anyway after the time that its response may take.
+    Special: the bytes of the first call after a deadline still count: they can hold the response.
     Errors: `InvalidValueError` for a time that is not finite; `StateError` for a time before the last call.
     Manual: 2, 3.
+
+    >>> from i7000 import Model, dcon
+    >>> bus = send(Bus[Response](policy=Policy(retries=0)), dcon.HostOk(), Profile(Model.I_7018), 0.0)
+    >>> bus, _ = receive(bus, b"", next_deadline(bus))
+    >>> receive(bus, b"", next_deadline(bus))[1]
+    (Sent(command=HostOk()),)
     """
     check_type("bus", bus, Bus)
-    data = as_bytes("data", data)
+    heard = as_bytes("heard", heard)
     check_clock(now, bus.clock)
     events: tuple[Event[R], ...] = ()
-    if data:
-        if bus.pending and bus.pending.due < now:
-            bus, events = _expire(bus, bus.pending)
-        bus, heard = _hear(bus, data, now)
-        events += heard
+    if heard:
+        bus, events = _hear(bus, heard, now)
     elif now != bus.clock:
         bus = _changed(bus, clock=now)
     if bus.pending and bus.pending.due <= now:
         bus, over = _expire(bus, bus.pending)
         events += over
-    bus, sent = _transmit(bus, now)
+    bus, sent = _transmit(bus, now, drained=not heard)
     return bus, (*events, *sent)
 
 
-def wake(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Event[R], ...]]:
-    """Return the events caused by the time; call it at `next_deadline`. Calling it earlier is harmless.
-
-    >>> from i7000 import Model
-    >>> bus, wire = send(Bus[Any](policy=Policy(retries=0)), dcon.HostOk(), Profile(Model.I_7018), 0.0)
-    >>> wake(bus, next_deadline(bus))[1]
-    (Sent(command=HostOk()),)
-    """
-    return receive(bus, b"", now)
-
-
-def next_deadline(bus: Bus[Any]) -> float | None:
-    """Return the time to call `wake`, even if no byte arrives; None if no request is open."""
+def next_deadline(bus: Bus[Response]) -> float | None:
+    """Return the time to call `receive`, even if no byte arrives; None if no request is open."""
     check_type("bus", bus, Bus)
     return bus.pending.due if bus.pending else None
+
+
+def abandon(bus: Bus[R], now: float) -> Bus[R]:
+    """End the open request without an outcome: your task was cancelled, or the port failed.
+
+    Time: if the request was sent, the line stays silent until the end of its deadline, its pause and the grace, and a
+        late response is `Late`. If it was not sent, nothing is owed.
+    Special: without an open request, it does nothing.
+    Errors: `InvalidValueError` for a time that is not finite; `StateError` for a time before the last call.
+
+    >>> from i7000 import Model, dcon
+    >>> bus = send(Bus[Response](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
+    >>> next_deadline(abandon(bus, 0.0)) is None
+    True
+    """
+    check_type("bus", bus, Bus)
+    check_clock(now, bus.clock)
+    quiet_until = bus.quiet_until
+    if bus.pending and bus.pending.sent:
+        quiet_until = max(quiet_until, _over(bus, bus.pending))
+    return _changed(bus, pending=None, quiet_until=quiet_until, clock=now)
 
 
 # --- the steps --------------------------------------------------------------------------------------------------------
 
 
-def _silence(bus: Bus[Any], exchange: Exchange[Any]) -> float:
-    """Return the silence that `exchange` needs before it: before and after RTU frames."""
-    return bus.silence if exchange.rtu or (bus.last and bus.last.rtu) else 0.0
-
-
-def _allowance(bus: Bus[Any], exchange: Exchange[Any]) -> float:
+def _allowance(bus: Bus[Response], exchange: Exchange[Response]) -> float:
     """Return the time from sending a request to its deadline.
 
     Special: the Modbus specification requires time for the modules after a broadcast too.
@@ -251,9 +258,14 @@ def _allowance(bus: Bus[Any], exchange: Exchange[Any]) -> float:
     return characters * bus.character_time + turnaround + exchange.pause
 
 
-def _transmit(bus: Bus[R], now: float) -> tuple[Bus[R], tuple[Transmit, ...]]:
-    """Send the open request if it is time."""
-    if not bus.pending or bus.pending.sent or now < bus.pending.due:
+def _over(bus: Bus[Response], request: Pending[Response]) -> float:
+    """Return the end of the silence after the deadline of a request that was sent; nothing answers a broadcast."""
+    return request.due + (bus.policy.grace if request.exchange.answered else 0.0)
+
+
+def _transmit(bus: Bus[R], now: float, *, drained: bool) -> tuple[Bus[R], tuple[Transmit, ...]]:
+    """Send the open request if it is time; `drained` is whether the port had nothing to read."""
+    if not bus.pending or bus.pending.sent or now < (bus.pending.due if drained else bus.pending.latest):
         return bus, ()
     exchange = bus.pending.exchange
     end = now + len(exchange.wire) * bus.character_time
@@ -266,7 +278,7 @@ def _hear(bus: Bus[R], data: bytes, now: float) -> tuple[Bus[R], tuple[Event[R],
     found, rest = split(bus.last, bus.rest + data, echo=bus.echo)
     bus = _changed(bus, rest=rest, heard_at=max(bus.heard_at, now), clock=now)
     if bus.pending and not bus.pending.sent:
-        silent = min(now + _silence(bus, bus.pending.exchange), bus.pending.latest)
+        silent = min(now + bus.silence, bus.pending.latest)
         bus = _changed(bus, pending=evolve(bus.pending, due=max(bus.pending.due, silent)))
     bus, events = _take(bus, found)
     bus, ahead = _take_ahead(bus)
@@ -317,9 +329,9 @@ def _expire(bus: Bus[R], request: Pending[R]) -> tuple[Bus[R], tuple[Event[R], .
         return bus, events
     if not request.exchange.answered:
         return _changed(bus, pending=None), (*events, Sent(request.exchange.command))
-    over = request.due + bus.policy.grace
+    bus = _changed(bus, quiet_until=_over(bus, request))
     if not request.retries:
-        return _changed(bus, pending=None, quiet_until=over), (*events, TimedOut(request.exchange.command))
-    due = max(over, bus.heard_at + _silence(bus, request.exchange))
+        return _changed(bus, pending=None), (*events, TimedOut(request.exchange.command))
+    due = max(bus.quiet_until, bus.heard_at + bus.silence)
     again = Pending(request.exchange, request.retries - 1, due, due + _allowance(bus, request.exchange))
     return _changed(bus, pending=again), events

@@ -4,15 +4,15 @@ Laws: a request has exactly one outcome: `Answered`, `Declined`, `TimedOut` or `
 outcome, in another event, in the dropped echo, or in an incomplete frame that was dropped when a request was sent.
 """
 
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 from i7000 import dcon, modbus
 from i7000.errors import Fault, Noise
 from i7000.frozen import frozen
+from i7000.message import Query, Response
 
 __all__ = [
     "Answered",
-    "AnyCommand",
     "Declined",
     "Ended",
     "Event",
@@ -24,11 +24,9 @@ __all__ = [
     "Transmit",
 ]
 
-AnyCommand = dcon.AnyCommand | modbus.Request[Any]
-"""The messages that a host sends, of either protocol."""
-
-R = TypeVar("R")
-"""The response of a command."""
+R = TypeVar("R", bound=Response)
+R_co = TypeVar("R_co", bound=Response, covariant=True)
+"""The class of the response."""
 
 
 @frozen
@@ -42,14 +40,14 @@ class Transmit:
 class Ended:
     """The base class of outcomes: the end of a request, `command`."""
 
-    command: AnyCommand
+    command: Query[Response]
 
 
 @frozen
-class Answered(Ended, Generic[R]):
+class Answered(Ended, Generic[R_co]):
     """The outcome of a request that was carried out: `command` and its `response`."""
 
-    response: R
+    response: R_co
 
 
 @frozen

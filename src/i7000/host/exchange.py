@@ -8,30 +8,24 @@ from typing import Any, Generic, TypeVar
 from i7000 import dcon, modbus
 from i7000.errors import Fault, Noise
 from i7000.frozen import frozen
-from i7000.host.events import Answered, AnyCommand, Declined
+from i7000.host.events import Answered, Declined
+from i7000.message import Query, Response
 from i7000.profile import Profile
 
-__all__ = ["Exchange", "answers", "finish", "split"]
+__all__ = ["Exchange", "answers", "finish", "prepare", "split"]
 
-R = TypeVar("R")
+R = TypeVar("R", bound=Response)
+R_co = TypeVar("R_co", bound=Response, covariant=True)
 
 
 @frozen
-class Exchange(Generic[R]):
-    """A command and the profile of its module; R is the type of the response."""
+class Exchange(Generic[R_co]):
+    """A command and the profile of its module; R_co is the class of the response."""
 
-    command: AnyCommand
+    command: Query[R_co]
     profile: Profile
     wire: bytes
     """The frame of the command."""
-
-    @classmethod
-    def of(cls, command: AnyCommand, profile: Profile) -> "Exchange[R]":
-        """Encode the command.
-
-        Errors: `EncodeError` of the codec.
-        """
-        return cls(command, profile, _codec(command).encode(command, profile))
 
     @property
     def rtu(self) -> bool:
@@ -56,7 +50,7 @@ class Exchange(Generic[R]):
         pause: float = _codec(self.command).pause_after(self.command, self.profile)
         return pause
 
-    def read(self, frame: bytes) -> Answered[R] | Declined:
+    def read(self, frame: bytes) -> Answered[R_co] | Declined:
         """Decode a frame as the response.
 
         Errors: `DecodeError` for any other frame.
@@ -67,7 +61,15 @@ class Exchange(Generic[R]):
         return Answered(self.command, response)
 
 
-def _codec(command: AnyCommand) -> Any:  # noqa: ANN401 - a module
+def prepare(command: Query[R], profile: Profile) -> Exchange[R]:
+    """Encode a command for the module of `profile`.
+
+    Errors: `EncodeError` of the codec.
+    """
+    return Exchange(command, profile, _codec(command).encode(command, profile))
+
+
+def _codec(command: Query[Response]) -> Any:  # noqa: ANN401 - a module
     """Return the protocol module of a command; both have functions of the same names."""
     return modbus if isinstance(command, modbus.Request) else dcon
 
@@ -76,7 +78,7 @@ Found = tuple[bytes | Noise, ...]
 """Frames and noise."""
 
 
-def split(last: Exchange[Any] | None, heard: bytes, *, echo: bool) -> tuple[Found, bytes]:
+def split(last: Exchange[Response] | None, heard: bytes, *, echo: bool) -> tuple[Found, bytes]:
     """Split received bytes into complete frames, noise and the rest that may still become a frame.
 
     Shape: uses the protocol of the last request, because modules only answer.
@@ -86,7 +88,7 @@ def split(last: Exchange[Any] | None, heard: bytes, *, echo: bool) -> tuple[Foun
     return dcon.split(heard, checksum=last is not None and last.profile.checksum)
 
 
-def answers(pending: Exchange[Any], rest: bytes) -> tuple[Found, bytes]:
+def answers(pending: Exchange[Response], rest: bytes) -> tuple[Found, bytes]:
     """Return the complete responses to an open request in a rest, and the new rest."""
     if not pending.rtu or not pending.answered:
         return (), rest
@@ -95,7 +97,7 @@ def answers(pending: Exchange[Any], rest: bytes) -> tuple[Found, bytes]:
     return ((), rest) if all(isinstance(part, Noise) for part in found) else (found, after)
 
 
-def finish(last: Exchange[Any], rest: bytes, *, echo: bool) -> Found:
+def finish(last: Exchange[Response], rest: bytes, *, echo: bool) -> Found:
     """Split a rest without waiting for more bytes: an incomplete frame is noise."""
     if last.rtu:
         return modbus.flush(rest, _side(echo=echo), last.profile)

@@ -99,6 +99,6 @@ def unseal(frame: bytes) -> bytes:
         allowed = f"{SHORTEST_FRAME} to {LONGEST_FRAME} bytes"
         raise DecodeError(Fault.LENGTH, frame, min(len(frame), LONGEST_FRAME), allowed=allowed, section="3")
     if crc_of(frame):
-        crc = crc_of(frame[:-2]).to_bytes(2, "little").hex()
+        crc = crc_of(frame[:-2]).to_bytes(2, "little").hex(" ").upper()
         raise DecodeError(Fault.CRC, frame, len(frame) - 2, field="crc", allowed=crc, section="3")
     return frame[:-2]

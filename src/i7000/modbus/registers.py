@@ -110,6 +110,10 @@ class Register:
     """The word order of kinds with 32-bit numbers."""
     ends_when_read: bool = field(default=False, kw_only=True)
     """Whether reading changes the row: the reset status is set only for the first reader."""
+    fact: str | None = field(default=None, kw_only=True)
+    """The property of the module that it contains, if other rows or frames are read differently for it, or if it shows
+    which module this is: ``types``, ``modbus_data_format``, ``single_ended``, ``mask``, ``firmware``, ``series``,
+    ``address``."""
     words: Callable[[Any], str] = field(default=describe.value, kw_only=True, repr=False)
     """Returns the value in words, without its unit: see `describe`."""
 
@@ -133,6 +137,7 @@ class Register:
 OPEN_WIRE: Gates = gates_of(series("M-7019Z"), M_7018R="B4.5", M_7018Z="B4.4", M_7019R="B3.7")
 """Open wire detection by Modbus; by DCON, M-7018R has it from an older firmware on (E68)."""
 _LAST_TYPE_CODE = 0x1C
+_MASK_BITS = 16
 _RECORDS = 6
 
 
@@ -184,7 +189,13 @@ def _holding(name: str, address: int, count: int = 1, **facts: Any) -> Register:
 
 
 _TYPE_CODE = partial(
-    _holding, kind=Kind.CODE, minimum=0, maximum=_LAST_TYPE_CODE, values=TypeCode, words=describe.type_code
+    _holding,
+    kind=Kind.CODE,
+    minimum=0,
+    maximum=_LAST_TYPE_CODE,
+    values=TypeCode,
+    words=describe.type_code,
+    fact="types",
 )
 _OFFSET = partial(_holding, kind=Kind.INT16, unit="degC", scale=0.01, minimum=CJC_OFFSETS[0], maximum=CJC_OFFSETS[1])
 _TENTHS = partial(_holding, unit="degC", scale=0.1, minimum=CHANNEL_OFFSETS[0], maximum=CHANNEL_OFFSETS[1])
@@ -207,9 +218,9 @@ def _module(profile: Profile) -> Iterator[Register]:
     """Return the holding registers of the whole module."""
     model = profile.model
     read_32 = partial(_holding, count=2, access=Access.READ, kind=Kind.UINT32, word_order=WordOrder.LOW_FIRST)
-    yield read_32("firmware_version", 480, values=Firmware, words=describe.firmware)
-    yield read_32("module_name", 482, values=str, words=describe.series)
-    yield _holding("module_address", 484, minimum=1, maximum=247, words=describe.address)
+    yield read_32("firmware_version", 480, values=Firmware, words=describe.firmware, fact="firmware")
+    yield read_32("module_name", 482, values=str, words=describe.series, fact="series")
+    yield _holding("module_address", 484, minimum=1, maximum=247, words=describe.address, fact="address")
     yield _holding(
         "line_settings", 485, kind=Kind.BITS, minimum=0x03, maximum=0xCA,
         values=LineSettings, words=describe.line_settings,
@@ -218,7 +229,9 @@ def _module(profile: Profile) -> Iterator[Register]:
         yield _TYPE_CODE("module_type_code", 486)
     yield _holding("response_delay", 487, unit="ms", scale=1, minimum=RESPONSE_DELAYS[0], maximum=RESPONSE_DELAYS[1])
     yield _holding("host_watchdog_timeout", 488, unit="s", scale=0.1, minimum=0, maximum=255)
-    yield _MASK("channel_mask", 489, maximum=(1 << min(_printed_channels(profile), 16)) - 1)
+    bits = _printed_channels(profile)
+    whole = "mask" if bits <= _MASK_BITS else None
+    yield _MASK("channel_mask", 489, maximum=(1 << min(bits, _MASK_BITS)) - 1, fact=whole)
     if model.cjc:
         yield _OFFSET("module_cjc_offset", 490)
     yield _holding("host_watchdog_timeout_count", 491, cleared_by=0)
@@ -242,7 +255,7 @@ def _coils(profile: Profile) -> Iterator[Register]:  # noqa: C901 - a list
     yield coil("host_watchdog_enabled", 260)
     if model.cjc:
         yield coil("cjc_enabled", 267)
-    yield coil("modbus_data_format", 268, values=ModbusDataFormat)
+    yield coil("modbus_data_format", 268, values=ModbusDataFormat, fact="modbus_data_format")
     yield coil("host_watchdog_timed_out", 269, cleared_by=1)
     if model.fast_mode:
         yield coil("fast_mode", 270)
@@ -254,7 +267,7 @@ def _coils(profile: Profile) -> Iterator[Register]:  # noqa: C901 - a list
     if profile.has(OPEN_WIRE):
         yield coil("open_wire_detection", 275)
     if model is Model.M_7017Z:
-        yield coil("single_ended", 276)
+        yield coil("single_ended", 276, fact="single_ended")
     if model is Model.M_7017mC_16:
         yield coil("big_endian", 282)
 

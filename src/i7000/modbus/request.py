@@ -5,7 +5,7 @@ too: `ExceptionResponse`.
 """
 
 from enum import IntEnum
-from typing import Annotated, ClassVar, Generic, TypeVar
+from typing import Annotated, ClassVar, TypeVar
 
 from i7000 import message
 from i7000.modbus.items import Address, ExceptionFunction, ResultByte, byte
@@ -51,7 +51,7 @@ class Message(message.Message):
     address: Address
 
 
-class Response(Message):
+class Response(Message, message.Response):
     """The base class of responses: the messages that a module sends."""
 
     _instead = "one of the responses, such as InputRegisters"
@@ -61,7 +61,7 @@ R = TypeVar("R", bound=Response)
 """The response of a request."""
 
 
-class Request(Message, Generic[R]):
+class Request(Message, message.Query[R]):
     """The base class of requests to one module; `response` is the type of the response. Address 0 is `BROADCAST`."""
 
     response: ClassVar[type[Response]]

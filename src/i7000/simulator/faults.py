@@ -1,19 +1,36 @@
-"""The faults of real lines: lost and flipped bits, noise, and bytes that arrive in lumps, late, or twice.
+"""The faults of real lines and modules: damaged, lost, late, repeated and wrong answers.
 
-Laws: all randomness comes from the generator argument: the same seed and traffic give the same faults.
+Laws: all randomness comes from the generator argument: the same seed and traffic give the same faults. A fault that is
+off draws no random number, so switching one on leaves the others of a seed as they were until it first happens.
 """
 
+from enum import StrEnum
+from functools import lru_cache
 from random import Random
+from typing import Any
 
-from attrs import fields_dict, frozen
+from attrs import evolve, fields_dict, frozen
 
+from i7000 import dcon, modbus
 from i7000.errors import InvalidValueError
+from i7000.settings import Protocol, is_int
 
-__all__ = ["Faults", "Piece", "Transfer"]
+__all__ = ["Exchange", "Faults", "Piece", "Scoped", "Transfer", "Way"]
 
 _LUMP_TIME = 0.016
 """USB adapters collect received bytes for this many seconds before they pass them on."""
 _LONGEST_BURST = 16
+_LAST_ADDRESS = 247
+"""The last address of Modbus."""
+
+
+class Way(StrEnum):
+    """The directions of a line, as a host sees them."""
+
+    TO = "to"
+    """Requests: to the modules."""
+    FROM = "from"
+    """Answers: from the modules."""
 
 
 @frozen
@@ -32,12 +49,52 @@ class Transfer:
     faults: tuple[str, ...] = ()
 
 
+@frozen
+class Exchange:
+    r"""The request of an answer, for faults that replace the answer by another one.
+
+    >>> Exchange(b"$1FM\r", Protocol.DCON).address, Exchange(b"", Protocol.DCON).address
+    (31, None)
+    """
+
+    request: bytes
+    protocol: Protocol
+    checksum: bool = False
+    """Whether DCON frames have a checksum."""
+    earlier: bytes | None = None
+    """The answer to the last request that differed."""
+
+    @property
+    def address(self) -> int | None:
+        """The address in the request; None if it has none."""
+        if self.protocol is Protocol.MODBUS_RTU:
+            return self.request[0] if self.request else None
+        digits = self.request[1:3]
+        return int(digits, 16) if len(digits) == 2 and digits.isalnum() and digits.strip(_HEX) == b"" else None
+
+
+_HEX = b"0123456789ABCDEF"
+
+
+@frozen
+class Scoped:
+    """The value of a fault in one direction, or for the answers of the module at one address."""
+
+    where: Way | int
+    name: str
+    value: float
+
+
 @frozen(kw_only=True)
 class Faults:
     """The faults of a line.
 
     Unit: probabilities from 0 to 1; times in seconds.
-    Errors: `InvalidValueError` for an invalid probability or time.
+    Errors: `InvalidValueError` for an invalid probability, time or code.
+
+    >>> faults = Faults(late=0.1).at(0x02, late=1.0).at(Way.TO, drop=0.01)
+    >>> faults.requests.drop, faults.answers(0x01).late, faults.answers(0x02).late
+    (0.01, 0.1, 1.0)
     """
 
     echo: bool = False
@@ -53,15 +110,54 @@ class Faults:
     late: float = 0.0
     """The probability that a response is late, when the host may have sent its next request."""
     late_by: float = 0.3
+    silent: float = 0.0
+    """The probability that a response is lost completely."""
+    refuse: float = 0.0
+    """The probability that ``?AA`` or a Modbus exception replaces a response; the module has carried out the request.
+    """
+    refuse_code: int = 4
+    """The code of the exception."""
+    replay: float = 0.0
+    """The probability that the response to the last different request of the host replaces a response."""
+    misaddress: float = 0.0
+    """The probability that a response has the address of another module; a DCON response with ``>`` has no address."""
+    truncate: float = 0.0
+    """The probability that a response ends early."""
+    duplicate: float = 0.0
+    """The probability that a response arrives twice."""
+    scoped: tuple[Scoped, ...] = ()
+    """The values in one direction or for one address, from `at`."""
 
     def __attrs_post_init__(self) -> None:
-        for name in fields_dict(Faults):
-            value = getattr(self, name)
-            if isinstance(value, bool):
-                continue
-            most = 60.0 if name == "late_by" else 1.0
-            if not 0 <= value <= most:
-                raise InvalidValueError(name, value, f"0..{most:g}", "")
+        for name in _NAMES:
+            _check(name, getattr(self, name))
+
+    def at(self, where: Way | int, **values: float) -> "Faults":
+        """Return the faults with other values in one direction, or for the answers of one address.
+
+        Special: the value for an address replaces that for the direction `Way.FROM`, which replaces the common one.
+        Errors: `InvalidValueError`, also for a fault that does not occur there: requests can only be damaged, since all
+            modules hear them, and an echo has neither direction nor address.
+        """
+        if not isinstance(where, Way) and not is_int(where, 0, 0xFF):
+            raise InvalidValueError("where", where, "Way.TO, Way.FROM or an address of 0..255", "")
+        allowed = _OF_REQUESTS if where is Way.TO else _OF_ANSWERS
+        scoped = {(it.where, it.name): it for it in self.scoped}
+        for name, value in values.items():
+            if name not in allowed:
+                raise InvalidValueError("fault", name, f"{', '.join(allowed)}, at {where}", "")
+            _check(name, value)
+            scoped[where, name] = Scoped(where, name, value)
+        return evolve(self, scoped=tuple(scoped.values()))
+
+    @property
+    def requests(self) -> "Faults":
+        """The faults of requests."""
+        return _at(self, (Way.TO,)) if self.scoped else self
+
+    def answers(self, address: int | None) -> "Faults":
+        """Return the faults of the answers to requests to an address; None if the request has none."""
+        return _at(self, (Way.FROM, address)) if self.scoped else self
 
     def carried(self, data: bytes, chance: Random) -> tuple[bytes, tuple[str, ...]]:
         """Return the bytes after their way over the line, and the faults in words."""
@@ -83,11 +179,25 @@ class Faults:
                 carried.append(byte)
         return bytes(carried), tuple(happened)
 
-    def delivered(self, answer: bytes, character_time: float, chance: Random) -> Transfer:
-        """Return the pieces in which a response arrives, and their delays."""
-        wire, happened = self.carried(answer, chance)
+    def delivered(
+        self, answer: bytes, character_time: float, chance: Random, exchange: Exchange | None = None
+    ) -> Transfer:
+        """Return the pieces in which a response arrives, and their delays.
+
+        Special: without `exchange` no other response replaces it.
+        """
+        if _happens(self.silent, chance):
+            return Transfer((), ("the answer is lost",))
+        wire, other = (answer, ()) if exchange is None else self._replaced(answer, exchange, chance)
+        if _happens(self.truncate, chance) and len(wire) > 1:
+            wire = wire[: chance.randrange(1, len(wire))]
+            other = (*other, f"cut after {len(wire)} bytes")
+        if _happens(self.duplicate, chance):
+            wire, other = wire * 2, (*other, "sent twice")
+        wire, damage = self.carried(wire, chance)
+        happened = other + damage
         after = 0.0
-        if self.late and chance.random() < self.late:
+        if _happens(self.late, chance):
             after = self.late_by
             happened = (*happened, f"late by {after:g} s")
         if not self.lumps:
@@ -97,3 +207,69 @@ class Faults:
             Piece(wire[at : at + size], after + _LUMP_TIME * (1 + at // size)) for at in range(0, len(wire), size)
         ]
         return Transfer(tuple(pieces), (*happened, f"in {len(pieces)} lumps"))
+
+    def _replaced(self, answer: bytes, exchange: Exchange, chance: Random) -> tuple[bytes, tuple[str, ...]]:
+        """Return the response that arrives in place of another one, and why."""
+        if _happens(self.refuse, chance) and (refusal := _refusal(exchange, self.refuse_code)):
+            return refusal
+        if _happens(self.replay, chance) and exchange.earlier is not None:
+            return exchange.earlier, ("an earlier answer",)
+        if _happens(self.misaddress, chance) and (misaddressed := _misaddressed(answer, exchange)):
+            return misaddressed
+        return answer, ()
+
+
+_NAMES = tuple(name for name in fields_dict(Faults) if name != "scoped")
+_OF_REQUESTS = ("drop", "flip", "noise")
+_OF_ANSWERS = tuple(name for name in _NAMES if name != "echo")
+
+
+def _check(name: str, value: object) -> None:
+    if name in ("echo", "lumps"):
+        allowed, valid = "True or False", isinstance(value, bool)
+    elif name == "refuse_code":
+        allowed, valid = "1..255", is_int(value, 1, 0xFF)
+    else:
+        most = 60.0 if name == "late_by" else 1.0
+        allowed, valid = f"0..{most:g}", isinstance(value, int | float) and 0 <= value <= most
+    if not valid:
+        raise InvalidValueError(name, value, allowed, "")
+
+
+def _happens(probability: float, chance: Random) -> bool:
+    return probability > 0 and chance.random() < probability
+
+
+@lru_cache(maxsize=1024)
+def _at(faults: Faults, where: tuple[Way | int | None, ...]) -> Faults:
+    """Return the faults in some scopes, the last of which counts."""
+    values: dict[str, Any] = {it.name: it.value for one in where for it in faults.scoped if it.where == one}
+    return evolve(faults, scoped=(), **values)
+
+
+# --- other answers ----------------------------------------------------------------------------------------------------
+
+
+def _refusal(exchange: Exchange, code: int) -> tuple[bytes, tuple[str, ...]] | None:
+    address = exchange.address
+    if address is None:
+        return None
+    if exchange.protocol is Protocol.DCON:
+        return dcon.seal(b"?%02X" % address, checksum=exchange.checksum), ("refused",)
+    function = exchange.request[1:2] or b"\0"
+    return modbus.seal(bytes((address, function[0] | 0x80, code))), (f"refused with exception {code:02X}",)
+
+
+def _misaddressed(answer: bytes, exchange: Exchange) -> tuple[bytes, tuple[str, ...]] | None:
+    """Return the response with the address of another module; None if it has no address."""
+    address = exchange.address
+    if address is None:
+        return None
+    other = address % _LAST_ADDRESS + 1
+    words = (f"with address {other:02X}",)
+    if exchange.protocol is Protocol.MODBUS_RTU:
+        return (modbus.seal(bytes((other,)) + answer[1:-2]), words) if answer[:1] == bytes((address,)) else None
+    if answer[:3] not in (b"!%02X" % address, b"?%02X" % address):
+        return None
+    body = answer[:1] + b"%02X" % other + answer[3 : -3 if exchange.checksum else -1]
+    return dcon.seal(body, checksum=exchange.checksum), words

@@ -1,12 +1,13 @@
-"""The events that the simulator reports about the traffic on its line."""
+"""The events that the simulator reports: the traffic on its line, and changes of its modules."""
 
 from attrs import frozen
 
 from i7000.errors import Noise
+from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
 
-__all__ = ["Observed"]
+__all__ = ["Change", "Observed"]
 
 
 @frozen
@@ -29,3 +30,18 @@ class Observed:
     """The faults of the line."""
     deaf: Profile | None = None
     """The profile of a module that cannot understand it because it uses the other protocol."""
+
+
+@frozen
+class Change:
+    """A change of a module: a setting, its watchdog, its power or its INIT switch."""
+
+    at: float
+    """The seconds since the start of the simulator."""
+    address: int
+    """The address in the EEPROM of the module, after the change."""
+    model: Model
+    what: tuple[str, ...]
+    """The changes in words."""
+    stored: bool = False
+    """Whether the EEPROM was written."""

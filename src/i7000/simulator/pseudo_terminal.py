@@ -10,7 +10,8 @@ import tty
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-from i7000.simulator.simulator import UNREAD, Host, Simulator
+from i7000.simulator.served import Served
+from i7000.simulator.simulator import UNREAD
 
 __all__ = ["open_pty"]
 
@@ -18,7 +19,7 @@ _AT_ONCE = 4096
 
 
 @asynccontextmanager
-async def open_pty(simulator: Simulator) -> AsyncIterator[str]:
+async def open_pty(simulator: Served) -> AsyncIterator[str]:
     """Open a pseudo-terminal connected to the bus; the value is its path.
 
     Special: it has neither baud rate nor parity, so all modules receive every host.
@@ -38,7 +39,7 @@ async def open_pty(simulator: Simulator) -> AsyncIterator[str]:
             if written < len(data):
                 simulator.notice(UNREAD)
 
-        host = Host(simulator, path, write)
+        host = simulator.host(path, write)
         loop = asyncio.get_running_loop()
         loop.add_reader(end, lambda: host.receive(os.read(end, _AT_ONCE)))
         try:

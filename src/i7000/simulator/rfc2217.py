@@ -13,7 +13,7 @@ from attrs import evolve, frozen
 
 from i7000.device import Uart
 from i7000.errors import InvalidValueError
-from i7000.simulator.simulator import Host
+from i7000.simulator.served import End
 from i7000.simulator.tcp import Connection
 from i7000.simulator.telnet import DO, WILL, Negotiation, Options, Telnet, escaped, subnegotiation
 
@@ -64,7 +64,7 @@ _CONFIRMED = {10: range(0x100), 11: range(0x100), 12: range(1, 4)}
 class Port:
     """The settings that a host makes for its end of the line."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: End) -> None:
         self._host = host
         self._controls = dict(_AT_FIRST)
 
@@ -111,7 +111,7 @@ class Rfc2217Connection(Connection):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Connect the host to the bus, and begin to negotiate."""
         super().connection_made(transport)
-        self.host.uart = Uart()
+        self.host.uart = self.host.uart or Uart()
         self._port = Port(self.host)
         self._telnet = Telnet()
         self._options = Options(_OURS, _THEIRS)

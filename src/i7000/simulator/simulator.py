@@ -15,24 +15,21 @@ from attrs import evolve, frozen
 
 from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance, power_on
 from i7000.errors import I7000Error, Noise
-from i7000.simulator.faults import Faults, Piece
+from i7000.simulator.changes import changes
+from i7000.simulator.deliveries import Deliveries
+from i7000.simulator.faults import Exchange, Faults
 from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
-from i7000.simulator.observed import Observed
+from i7000.simulator.observed import Change, Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
 
-__all__ = ["MOST_LATE_BYTES", "MOST_LATE_PIECES", "UNREAD", "Host", "Simulated", "Simulator"]
+__all__ = ["UNREAD", "Host", "Simulated", "Simulator"]
 
-MOST_LATE_PIECES = 1 << 10
-"""The maximum number of delayed pieces of responses to one host."""
-MOST_LATE_BYTES = 1 << 16
-"""The maximum number of their bytes; a response beyond either limit is lost completely."""
 UNREAD = "an answer was lost: its host does not read"
 """The text of a notice."""
 _SILENCE = 0.02
 """The silence in seconds that ends a Modbus RTU frame: more than 3.5 characters, as networks do not keep time."""
 _MOST_FAULTS = 16
 """The maximum number of faults kept until there is an event to report them with."""
-_LOST = "an answer was lost: too many are late"
 _TICK = 0.25
 """The interval in seconds at which modules notice the time without traffic."""
 
@@ -57,18 +54,22 @@ class Simulator:
         seed: int = 0,
         store: Callable[[Sequence[Eeprom]], None] | None = None,
         observe: Callable[[Observed], None] | None = None,
+        watch: Callable[[Change], None] | None = None,
         report: Callable[[str], None] | None = None,
     ) -> None:
         """Power on modules.
 
-        Shape: `store` is called with the EEPROMs of all modules when one changes, `observe` with all traffic, `report`
-            with each new notice.
+        Shape: `store` is called with the EEPROMs of all modules when one changes, `observe` with all traffic, `watch`
+            with all changes of modules, `report` with each new notice.
         Special: the time of the modules is real time, but never goes back.
         """
         self.faults = faults or Faults()
         self.chance = Random(seed)  # noqa: S311 - repeatable
         self.store = store
         self.observe = observe
+        self.watch = watch
+        self._changes: list[Change] = []
+        """The changes of modules that are not reported yet."""
         self.report = report
         self.notices: Counter[str] = Counter()
         """The notices, and how often each happened."""
@@ -78,8 +79,7 @@ class Simulator:
         self._began = self.now
         self._simulated = tuple(modules)
         self._sampled: tuple[int, tuple[Signals, ...]] | None = None
-        self.bus = Bus(())
-        self.power_cycle()
+        self.bus = Bus(tuple([self._powered_on(module.eeprom, module) for module in self._simulated]))
 
     @property
     def now(self) -> float:
@@ -95,9 +95,14 @@ class Simulator:
             self._sampled = number, tuple([module.sources.at(seconds) for module in self._simulated])
         return self._sampled[1]
 
-    def modules(self) -> tuple[tuple[State, Signals], ...]:
-        """Return the modules as they are now, with their signals."""
-        return tuple(zip(self.bus.modules, self.signals, strict=True))
+    def modules(self) -> tuple[tuple[State, Signals, Sources], ...]:
+        """Return the modules as they are now, with their signals and the sources of these."""
+        sources = [module.sources for module in self._simulated]
+        return tuple(zip(self.bus.modules, self.signals, sources, strict=True))
+
+    def places(self, address: int) -> tuple[int, ...]:
+        """Return the places on the bus of the modules that have an address in their EEPROM."""
+        return tuple(place for place, module in enumerate(self.bus.modules) if module.eeprom.address == address)
 
     def connect(self, sources: Iterable[Sources]) -> None:
         """Connect other signals to the inputs, for each module."""
@@ -105,27 +110,49 @@ class Simulator:
         self._simulated = tuple(evolve(module, sources=source) for module, source in pairs)
         self._sampled = None
 
-    def power_cycle(self) -> None:
-        """Switch the power of all modules off and on."""
-        eeproms = [module.eeprom for module in self.bus.modules or self._simulated]
-        self.bus = Bus(
-            tuple(
-                power_on(eeprom, init_switch=module.init_switch, now=self.now)
-                for eeprom, module in zip(eeproms, self._simulated, strict=True)
-            )
-        )
+    def power_cycle(self, places: Iterable[int] | None = None) -> None:
+        """Switch the power of modules off and on: those at some places on the bus, or all."""
+        modules = list(self.bus.modules)
+        cycled = range(len(modules)) if places is None else sorted(set(places))
+        for place in cycled:
+            modules[place] = self._powered_on(modules[place].eeprom, self._simulated[place])
+        if self.change(Bus(tuple(modules))):
+            for place in cycled:
+                mode = " in INIT mode" if modules[place].ram.init_mode else ""
+                self._changed(modules[place], (f"power cycle{mode}",))
+        self.report_changes()
+
+    def _powered_on(self, eeprom: Eeprom, module: Simulated) -> State:
+        return power_on(eeprom, init_switch=module.init_switch, now=self.now)
+
+    def switch_init(self, place: int, *, on: bool) -> None:
+        """Move the INIT switch of the module at a place on the bus; most of its effect is at the next power-on."""
+        simulated, modules = list(self._simulated), list(self.bus.modules)
+        simulated[place] = evolve(simulated[place], init_switch=on)
+        modules[place] = modules[place].switched(init_switch=on)
+        self._simulated = tuple(simulated)
+        self.bus = evolve(self.bus, modules=tuple(modules))
+        self._changed(modules[place], (f"INIT switch {'on' if on else 'off'}",))
+        self.report_changes()
+
+    def host(self, name: str, write: Callable[[bytes], None]) -> "Host":
+        """Connect a host to the bus, as `Host` describes."""
+        return Host(self, name, write)
 
     def advance(self) -> None:
         """Move the time of the modules on to now."""
         now = self.now
-        self.change(Bus(tuple(advance(module, signals, now) for module, signals in self.modules())))
+        moved = [advance(module, own, now) for module, own in zip(self.bus.modules, self.signals, strict=True)]
+        self.change(Bus(tuple(moved)))
+        self.report_changes()
 
     def change(self, bus: Bus) -> bool:
         """Replace the bus by `bus`, and store changes of EEPROMs.
 
         Return False, and keep the old bus, if storing fails: the simulation then ends.
         """
-        changed = any(one.eeprom is not other.eeprom for one, other in zip(bus.modules, self.bus.modules, strict=True))
+        pairs = zip(self.bus.modules, bus.modules, strict=True)
+        changed = [(before, after) for before, after in pairs if before.eeprom is not after.eeprom]
         if changed and self.store:
             if self._ended.done():
                 return False
@@ -135,10 +162,25 @@ class Simulator:
                 self._ended.set_exception(error)
                 return False
         self.bus = bus
+        if self.watch:
+            for before, after in changed:
+                if what := changes(before.eeprom, after.eeprom):
+                    self._changed(after, what, stored=True)
         return True
 
-    def tell(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
-        """Report an event to the observer of the line."""
+    def _changed(self, module: State, what: tuple[str, ...], *, stored: bool = False) -> None:
+        at = self.now - self._began
+        self._changes.append(Change(at, module.eeprom.address, module.eeprom.model, what, stored=stored))
+
+    def report_changes(self) -> None:
+        """Report the changes of modules since the last call to the watcher: after the command that caused them."""
+        reported, self._changes = self._changes, []
+        if self.watch:
+            for change in reported:
+                self.watch(change)
+
+    def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
+        """Report what modules heard, and their answer, to the observer of the line."""
         if self.observe:
             at = self.now - self._began
             deaf = deaf_module(self.bus.modules, heard)
@@ -183,12 +225,16 @@ class Host:
         self._write = write
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._later: dict[asyncio.TimerHandle, int] = {}
-        """The delayed pieces of responses, and their lengths."""
+        self._deliveries = Deliveries(write, simulator.notice)
+        self._deliveries.delivered = self._check_finished
         self._finished: Callable[[], None] | None = None
         self._faults: tuple[str, ...] = ()
         self._noises: list[tuple[Heard, tuple[str, ...]]] = []
         """Noise that may be a frame of the other protocol, once the line is silent."""
+        self._last_request: bytes | None = None
+        self._last_answer: bytes | None = None
+        self._earlier: bytes | None = None
+        """The answer to the last request that differed from the last one."""
         self._not_understood = b""
         """The bytes received since the line was silent, or since the last frame."""
 
@@ -197,7 +243,7 @@ class Host:
         simulator = self.simulator
         if simulator.faults.echo:
             self._write(data)
-        carried, faults = simulator.faults.carried(data, simulator.chance)
+        carried, faults = simulator.faults.requests.carried(data, simulator.chance)
         self._faults = (*self._faults, *faults)[-_MOST_FAULTS:]
         signals, now = simulator.signals, simulator.now
         bus, ear, told = simulator.bus.hear(self.ear, carried, signals, now)
@@ -207,7 +253,7 @@ class Host:
         self._not_understood += carried
         self._take(bus, ear, told)
         if len(self._not_understood) > LONGEST:
-            self._tell_noises()
+            self._report_noises()
 
     @property
     def uart(self) -> Uart | None:
@@ -226,8 +272,7 @@ class Host:
     def close(self) -> None:
         """Disconnect the host: it receives nothing more."""
         self._stop_waiting()
-        for handle in self._later:
-            handle.cancel()
+        self._deliveries.close()
 
     def _silent(self) -> None:
         simulator = self.simulator
@@ -239,7 +284,7 @@ class Host:
                 self._faults = (*chain(*[faults for _, faults in self._noises]), *self._faults)[-_MOST_FAULTS:]
                 self._noises.clear()
         self._take(bus, ear, told)
-        self._tell_noises()
+        self._report_noises()
         self._stop_waiting()
         self._check_finished()
 
@@ -254,53 +299,42 @@ class Host:
             if isinstance(heard.frame, Noise):
                 self._noises.append((heard, faults))
                 continue
-            self._tell_noises()
-            happened = faults if heard.answer is None else (*faults, *self._answer(heard.answer, heard.delay))
-            self.simulator.tell(self.name, heard, happened)
+            self._report_noises()
+            happened = faults if heard.answer is None else (*faults, *self._answer(heard.frame, heard.answer, heard))
+            self.simulator.observed(self.name, heard, happened)
+        self.simulator.report_changes()
         self._stop_waiting()
         if ear.waiting or self._noises:
             self._silence = self._loop.call_later(_SILENCE, self._silent)
 
-    def _tell_noises(self) -> None:
+    def _report_noises(self) -> None:
         """Report the noise collected so far."""
         noises, self._noises = self._noises, []
         self._not_understood = b""
         for heard, faults in noises:
-            self.simulator.tell(self.name, heard, faults)
+            self.simulator.observed(self.name, heard, faults)
 
     def _stop_waiting(self) -> None:
         if self._silence:
             self._silence.cancel()
             self._silence = None
 
-    def _answer(self, answer: bytes, delay: float) -> tuple[str, ...]:
+    def _answer(self, request: bytes, answer: bytes, heard: Heard) -> tuple[str, ...]:
         """Send a response, and return its faults."""
         character_time = (self.uart or Uart()).character_time
-        transfer = self.simulator.faults.delivered(answer, character_time, self.simulator.chance)
-        late = [piece for piece in transfer.pieces if delay + piece.after]
-        if late and not self._has_room(late):
-            self.simulator.notice(_LOST)
-            return *transfer.faults, _LOST
-        for piece in transfer.pieces:
-            if delay + piece.after:
-                self._write_later(delay + piece.after, piece.wire)
-            else:
-                self._write(piece.wire)
-        return transfer.faults
+        exchange = self._exchange(request, answer, heard)
+        faults = self.simulator.faults.answers(exchange.address)
+        transfer = faults.delivered(answer, character_time, self.simulator.chance, exchange)
+        return self._deliveries.send(transfer, heard.delay)
 
-    def _has_room(self, late: Sequence[Piece]) -> bool:
-        size = sum(self._later.values()) + sum(len(piece.wire) for piece in late)
-        return len(self._later) + len(late) <= MOST_LATE_PIECES and size <= MOST_LATE_BYTES
-
-    def _write_later(self, seconds: float, wire: bytes) -> None:
-        def write() -> None:
-            del self._later[handle]
-            self._write(wire)
-            self._check_finished()
-
-        handle = self._loop.call_later(seconds, write)
-        self._later[handle] = len(wire)
+    def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
+        """Return the exchange of an answer, and remember the answer."""
+        if request != self._last_request:
+            self._last_request, self._earlier = request, self._last_answer
+        self._last_answer = answer
+        checksum = heard.profile is not None and heard.profile.checksum
+        return Exchange(request, heard.protocol, checksum, self._earlier)
 
     def _check_finished(self) -> None:
-        if self._finished and not self._later and not self._silence:
+        if self._finished and not self._deliveries and not self._silence:
             self._finished()

@@ -1,4 +1,4 @@
-"""Raw TCP connections to a simulated bus.
+"""Raw TCP connections to a simulated bus, or to another line that hosts are served with.
 
 Laws: a host that does not read loses bytes, as on a real line; the simulator never waits for it. Hosts take turns,
 however much one sends. At most `MOST_CONNECTIONS` hosts are served at a time.
@@ -14,7 +14,8 @@ from functools import partial
 from ipaddress import ip_address
 from typing import Any, cast
 
-from i7000.simulator.simulator import UNREAD, Host, Simulator
+from i7000.simulator.served import Served
+from i7000.simulator.simulator import UNREAD
 
 __all__ = ["LOOPBACK", "MOST_CONNECTIONS", "Connection", "listen"]
 
@@ -35,7 +36,7 @@ _UNAVAILABLE = errno.EAFNOSUPPORT, errno.EADDRNOTAVAIL
 class Connection(asyncio.BufferedProtocol):
     """A network connection of a host that sends and receives raw bytes."""
 
-    def __init__(self, simulator: Simulator, name: str, connections: "set[Connection]") -> None:
+    def __init__(self, simulator: Served, name: str, connections: "set[Connection]") -> None:
         """Create a connection that is in `connections` while the host, whose address is `name`, is connected."""
         self.simulator = simulator
         self.name = name
@@ -47,7 +48,7 @@ class Connection(asyncio.BufferedProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Connect the host to the bus."""
         self.transport = cast(asyncio.Transport, transport)
-        self.host = Host(self.simulator, self.name, self.write)
+        self.host = self.simulator.host(self.name, self.write)
         self.connections.add(self)
 
     def get_buffer(self, sizehint: int) -> bytearray:  # noqa: ARG002 - it is always the same
@@ -90,7 +91,7 @@ class Connection(asyncio.BufferedProtocol):
 
 @asynccontextmanager
 async def listen(
-    simulator: Simulator,
+    simulator: Served,
     host: str = LOOPBACK,
     port: int = 0,
     *,
@@ -120,7 +121,7 @@ async def listen(
 
 
 async def _accept(
-    simulator: Simulator, listening: socket.socket, connections: set[Connection], connection: type[Connection]
+    simulator: Served, listening: socket.socket, connections: set[Connection], connection: type[Connection]
 ) -> None:
     """Accept connections, up to the limit.
 

@@ -1,4 +1,4 @@
-"""Hypothesis strategies for the public classes: the vocabulary here, the rest in `dcon`, `modbus`, `device`, `host`.
+"""Hypothesis strategies for the public classes: the vocabulary here, the rest in `dcon`, `modbus` and so on.
 
 Laws: strategies draw valid values unless the name says otherwise. The smallest example is the simplest one: address 01,
 channel 0, no checksum, the I-7017 (for Modbus the M-7017) with its newest firmware. `st.from_type` knows every public
@@ -16,10 +16,10 @@ def register() -> None:
 
     import i7000.dcon  # noqa: PLC0415 - only for its names
     import i7000.device  # noqa: PLC0415
-    import i7000.host  # noqa: PLC0415
+    import i7000.host.procedures  # noqa: PLC0415
     import i7000.modbus  # noqa: PLC0415
 
-    for module in (i7000, i7000.dcon, i7000.modbus, i7000.device, i7000.host):
+    for module in (i7000, i7000.dcon, i7000.modbus, i7000.device, i7000.host, i7000.host.procedures):
         for kind in (getattr(module, name) for name in module.__all__):
             if isinstance(kind, type) and not issubclass(kind, Enum):  # Hypothesis knows what to do with an Enum.
                 register_type_strategy(kind, partial(strategy_for, kind))
@@ -27,7 +27,8 @@ def register() -> None:
 
 def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class, and the strategy for it
     """Return the strategy for a class of the package; None for an enumeration, and for a class without one."""
-    by_kind = {**vocabulary.BY_KIND, **maps.BY_KIND, **device.BY_KIND, **host.BY_KIND}
+    sources = (vocabulary, maps, device, host, procedures, findings, settings)
+    by_kind = {kind: make for source in sources for kind, make in source.BY_KIND.items()}
     if kind in by_kind:
         return by_kind[kind]()
     if issubclass(kind, ModbusMessage):
@@ -38,7 +39,7 @@ def strategy_for(kind: Any, _: object = None) -> Any:  # noqa: ANN401 - a class,
 # Hypothesis may call `register` while it is being imported, which may be by the modules that follow.
 from i7000.dcon import Message as DconMessage  # noqa: E402
 from i7000.modbus import Message as ModbusMessage  # noqa: E402
-from i7000.strategies import dcon, device, host, modbus, vocabulary  # noqa: E402
+from i7000.strategies import dcon, device, findings, host, modbus, procedures, settings, vocabulary  # noqa: E402
 from i7000.strategies.modbus import maps  # noqa: E402
 from i7000.strategies.vocabulary import (  # noqa: E402
     addresses,
@@ -56,14 +57,17 @@ __all__ = [
     "dcon",
     "device",
     "errors",
+    "findings",
     "firmwares",
     "host",
     "line_settings",
     "modbus",
+    "procedures",
     "profiles",
     "readings",
     "register",
     "report_settings",
+    "settings",
     "strategy_for",
     "word_readings",
 ]

@@ -31,6 +31,7 @@ from i7000 import (
     TypeCode,
     series,
 )
+from i7000.message import Message
 from i7000.readings import decode_engineering_word, decode_field, decode_word
 
 __all__ = [
@@ -95,6 +96,15 @@ def profiles(draw: st.DrawFn, *models: Model, known_types: bool = False) -> Prof
     if not known_types and draw(st.sampled_from((False,) * 9 + (True,))):
         types = ()
     return evolve(profile, type_codes=types)
+
+
+def is_accepted(message: Message, profile: Profile) -> bool:
+    """Return whether the module of `profile` accepts or sends a message."""
+    try:
+        message.check(profile)
+    except EncodeError:
+        return False
+    return True
 
 
 def supported_types(profile: Profile) -> list[TypeCode]:

@@ -14,7 +14,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import MIXED, DataFormat, EncodeError, LineSettings, Model, Profile, ReportSettings, TypeCode
+from i7000 import MIXED, DataFormat, LineSettings, Model, Profile, ReportSettings, TypeCode
 from i7000.dcon import (
     COMMANDS,
     AnyCommand,
@@ -36,7 +36,15 @@ from i7000.fields import FIELD_WIDTHS
 from i7000.names import CHARACTERS, is_name
 from i7000.profile import CJC_OFFSETS
 from i7000.readings import encode_field
-from i7000.strategies.vocabulary import addresses, line_settings, profiles, readings, report_settings, supported_types
+from i7000.strategies.vocabulary import (
+    addresses,
+    is_accepted,
+    line_settings,
+    profiles,
+    readings,
+    report_settings,
+    supported_types,
+)
 
 __all__ = [
     "Exchange",
@@ -124,15 +132,7 @@ def _messages(
         parts[attribute.name] = _part(attribute, kind, profile, accepted=accepted)
     parts |= {name: strategy for name, strategy in fixed.items() if name in parts}
     built = st.builds(kind, **parts)
-    return built.filter(lambda message: _takes(message, profile)) if accepted else built
-
-
-def _takes(message: Message, profile: Profile) -> bool:
-    try:
-        message.check(profile)
-    except EncodeError:
-        return False
-    return True
+    return built.filter(lambda message: is_accepted(message, profile)) if accepted else built
 
 
 def _part(  # noqa: PLR0911 - a table

@@ -12,7 +12,7 @@ from attrs import Attribute, fields, frozen
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-from i7000 import EncodeError, LineSettings, Model, Profile, Protocol, TypeCode
+from i7000 import LineSettings, Model, Profile, Protocol, TypeCode
 from i7000.modbus import (
     BROADCAST,
     REQUESTS,
@@ -36,7 +36,7 @@ from i7000.modbus import (
 from i7000.modbus.cold_junction import FIRST_CHANNEL
 from i7000.profile import CJC_OFFSETS
 from i7000.strategies import vocabulary
-from i7000.strategies.vocabulary import line_settings, supported_types
+from i7000.strategies.vocabulary import is_accepted, line_settings, supported_types
 
 __all__ = [
     "Exchange",
@@ -133,15 +133,7 @@ def _messages(
 ) -> SearchStrategy[Message]:
     """Make messages of a concrete class; with `accepted`, only those that the module accepts or sends."""
     built = _built(kind, profile, accepted, known)
-    return built.filter(lambda message: _takes(message, profile)) if accepted else built
-
-
-def _takes(message: Message, profile: Profile) -> bool:
-    try:
-        message.check(profile)
-    except EncodeError:
-        return False
-    return True
+    return built.filter(lambda message: is_accepted(message, profile)) if accepted else built
 
 
 @st.composite

@@ -1,0 +1,181 @@
+"""A listener at a port: it reads, decodes, shows and records until its end.
+
+Laws: what is heard is recorded before it is shown; output that nobody reads is dropped and counted, so that the port is
+always read.
+"""
+
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager, redirect_stdout
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+from time import monotonic, time
+from typing import IO, cast
+
+from attrs import evolve, frozen
+
+from i7000.cli.frame_text import frame_lines
+from i7000.cli.outlet import Outlet, missed_words
+from i7000.cli.port import ended_by_signals, opened
+from i7000.cli.readers import Read
+from i7000.cli.records import json_of
+from i7000.cli.text import Printer
+from i7000.cli.words import LineError
+from i7000.dissect import Direction, Line
+from i7000.dissect.timing import TimedHeard, TimedLine, flush_at, hear_at
+from i7000.recording import Capture, Carried, Recorder
+from i7000.settings import LineSettings, Protocol
+from i7000_cli import FAILED
+
+__all__ = ["Listener", "Listening", "run"]
+
+_SILENCE = 0.25
+"""The seconds without a byte after which what was heard is complete."""
+_SENT = {Direction.COMMAND: True, Direction.REQUEST: True, Direction.ECHO: True, Direction.RESPONSE: False, None: None}
+_ARROWS: dict[bool | None, str] = {True: "->", False: "<-", None: "--"}
+
+
+class Listener:
+    """A line that is listened to.
+
+    Unit: times in seconds; `began` is the date and time of second 0, in seconds since 1970.
+    """
+
+    def __init__(
+        self,
+        line: Line,
+        began: float,
+        *,
+        recorder: Recorder | None = None,
+        capture: Capture | None = None,
+    ) -> None:
+        self.timed = TimedLine(line)
+        self._began = began
+        self._recorder = recorder
+        self._capture = capture
+
+    def hear(self, data: bytes, now: float) -> Iterator[Read]:
+        """Take bytes that came at `now`, and yield the frames that are complete."""
+        self.timed, found = hear_at(self.timed, data, now)
+        return self._reads(found)
+
+    def silence(self, now: float) -> Iterator[Read]:
+        """Take what was heard as complete, and yield its frames."""
+        self.timed, found = flush_at(self.timed, now)
+        return self._reads(found)
+
+    def _reads(self, found: tuple[TimedHeard, ...]) -> Iterator[Read]:
+        for it in found:
+            heard = evolve(it.heard, notes=(*it.heard.notes, *it.notes))
+            sent = _SENT[heard.direction]
+            carried = Carried(it.began, heard.wire, sent, heard.protocol, None, it.notes)
+            if self._recorder:
+                self._recorder.write(carried)
+            if self._capture:
+                self._capture.write(carried)
+            time = datetime.fromtimestamp(self._began + it.began, UTC)
+            after = "" if it.after is None else f"+{it.after:.3f} s"
+            text = f"{time:%H:%M:%S}.{time.microsecond // 1000:03}  {after:>12}  {_ARROWS[sent]} {_frame(it)}"
+            number = heard.place.number
+            yield Read(number, number, number, text, time.isoformat(), heard)
+
+
+def _frame(it: TimedHeard) -> str:
+    if it.heard.protocol is Protocol.DCON:
+        return it.heard.wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+    return it.heard.wire.hex(" ").upper()
+
+
+# --- at a port --------------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Listening:
+    """What to listen to, what to show, and where to record it."""
+
+    target: str
+    settings: LineSettings
+    line: Line
+    addresses: frozenset[int]
+    """The addresses to show; all if there are none."""
+    names: frozenset[str]
+    """The names of the messages to show; all if there are none."""
+    seconds: float
+    record: Path | None
+    pcap: Path | None
+
+    def shows(self, read: Read) -> bool:
+        """Return whether a frame is shown; one that cannot be decoded has no name."""
+        heard = read.heard
+        if heard is None or (self.addresses and heard.address not in self.addresses):
+            return False
+        return not self.names or not self.names.isdisjoint(type(it.message).__name__ for it in heard.meanings)
+
+
+def run(listening: Listening, printer: Printer) -> int:
+    """Listen until the time is over, a signal asks for the end, or the port is lost; return the exit code.
+
+    Errors: `UsageError` for a text that is no target, `LineError` for a port that cannot be opened or is lost,
+        `OSError` for a file that cannot be created.
+    """
+    from i7000.link.port import read  # noqa: PLC0415 - it needs pyserial
+
+    with ExitStack() as stack:
+        port = stack.enter_context(opened(listening.target, listening.settings))
+        began, start = time(), monotonic()
+        recorder = capture = None
+        if listening.record:
+            recorder = stack.enter_context(
+                Recorder(
+                    listening.record,
+                    program="i7000 listen",
+                    target=listening.target,
+                    began=began,
+                    report=printer.error,
+                )
+            )
+        if listening.pcap:
+            capture = stack.enter_context(Capture(listening.pcap, began=began, report=printer.error))
+        listener = Listener(listening.line, began, recorder=recorder, capture=capture)
+        out = stack.enter_context(_never_held_up(printer))
+        ending = stack.enter_context(ended_by_signals())
+        now = 0.0
+        try:
+            while not ending.number and now < listening.seconds:
+                data = read(port, min(_SILENCE, listening.seconds - now))
+                now = monotonic() - start
+                _show(listener.hear(data, now) if data else listener.silence(now), listening, printer)
+        except OSError as error:
+            raise LineError(error) from None
+        finally:
+            _show(listener.silence(now), listening, printer)
+    if out.failed:
+        return FAILED
+    return 128 + ending.number if ending.number else 0
+
+
+def _show(reads: Iterable[Read], listening: Listening, printer: Printer) -> None:
+    for read in filter(listening.shows, reads):
+        if printer.json:
+            printer.write(json_of(read))
+        else:
+            unknown = read.heard is not None and listening.line.knowledge.of(read.heard.address).known.model is None
+            printer.lines(frame_lines(read, models=unknown))
+
+
+@contextmanager
+def _never_held_up(printer: Printer) -> Iterator[Outlet]:
+    """Print so that the port is read even if nobody reads what is printed."""
+    out = Outlet(sys.stdout, most=1 << 22, report=partial(_report, printer))
+    with redirect_stdout(cast(IO[str], out)):
+        try:
+            yield out
+        finally:
+            missed = out.close()
+            if missed:
+                printer.error(missed_words(missed))
+
+
+def _report(printer: Printer, error: OSError) -> None:
+    printer.error(f"the output cannot be written: {error.strerror}")

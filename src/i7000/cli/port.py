@@ -1,0 +1,102 @@
+"""The commands that open a port: their options, and how they end at Ctrl-C.
+
+Laws: what opening a port needs is imported when one is opened.
+"""
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from attrs import frozen
+from cyclopts import Parameter
+
+from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
+from i7000.cli.numbers import baud_rate
+from i7000.cli.words import LineError, UsageError
+
+if TYPE_CHECKING:
+    from i7000.link import Port
+
+__all__ = ["DEFAULT_LINE", "Ending", "LineOptions", "Target", "ended_by_signals", "opened"]
+
+Target = Annotated[
+    str,
+    Parameter(
+        help="The port: a device such as /dev/ttyUSB0 or COM3, a URL of pyserial such as rfc2217://host:port,"
+        " sim:M-7019R,type=K for a simulated module, or exec:COMMAND for a program."
+    ),
+]
+
+
+@Parameter(name="*")
+@frozen
+class LineOptions:
+    """The settings of the line."""
+
+    baud: str = "9600"
+    """Baud rate of the line: 1200 to 115200."""
+    character_format: Literal["N81", "N82", "E81", "O81"] = "N81"
+    """Parity and stop bits of the line, with 8 data bits."""
+
+    def settings(self) -> LineSettings:
+        """Return the settings.
+
+        Errors: `UsageError` for a baud rate that no module has.
+        """
+        rate = baud_rate(self.baud)
+        if not isinstance(rate, BaudRate):
+            raise UsageError(f"--baud {self.baud}: no module has this baud rate")
+        return LineSettings(rate, CharacterFormat[self.character_format])
+
+
+DEFAULT_LINE = LineOptions()
+
+
+@contextmanager
+def opened(target: str, line: LineSettings) -> "Iterator[Port]":
+    """Open the port of a target until the end.
+
+    Errors: `UsageError` for a text that is no target; `LineError` if it cannot be opened.
+    """
+    from i7000.link import LinkError, open_target  # noqa: PLC0415 - pyserial takes time, and may not be there
+
+    try:
+        port = open_target(target, line)
+    except InvalidValueError as error:
+        raise UsageError(error) from None
+    except LinkError as error:
+        raise LineError(error) from None
+    try:
+        yield port
+    finally:
+        port.close()
+
+
+class Ending:
+    """The signal that asked the program to end."""
+
+    def __init__(self) -> None:
+        self.number = 0
+        """Its number; 0 until there is one."""
+
+    def ask(self, number: int, _frame: FrameType | None) -> None:
+        """Remember a signal; this handles signals."""
+        self.number = number
+
+
+@contextmanager
+def ended_by_signals() -> Iterator[Ending]:
+    """Make Ctrl-C, and the signals that come when the program is ended or its terminal hangs up, ask for the end."""
+    ending = Ending()
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {number: signal.getsignal(number) for number in numbers}
+    try:
+        for number, handler in before.items():
+            if handler is not signal.SIG_IGN:
+                signal.signal(number, ending.ask)
+        yield ending
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,162 @@
+"""The driver's side of a line as generators, without I/O: the same for threads and for asyncio.
+
+A conversation yields an `Act`, is sent the bytes that a `Read` returned, and returns its result. Who drives it closes
+it: a conversation that does not get to its end calls `abandon`.
+
+Laws: the observer is called in the order of things. The first exception of an observer is logged, and then it is not
+called again: the line goes on without it.
+"""
+
+import logging
+from collections.abc import Callable, Generator
+from typing import TypeVar
+
+from attrs import evolve, frozen
+
+from i7000.errors import Noise
+from i7000.host import Bus, Ended, Late, Outcome, Policy, Rejected, Transmit, abandon, next_deadline, receive, send
+from i7000.host.procedures import Ask, Procedure, Result, Tune, Wait
+from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
+from i7000.message import Query, Response
+from i7000.profile import Profile
+
+__all__ = ["Act", "Acts", "Conversation", "Read", "Write"]
+
+R = TypeVar("R", bound=Response)
+T = TypeVar("T")
+
+_log = logging.getLogger("i7000.link")
+
+
+@frozen
+class Read:
+    """The act of reading what the port has, as soon as there is something, at the latest at a time of the clock."""
+
+    until: float
+
+
+@frozen
+class Write:
+    """The act of writing bytes."""
+
+    wire: bytes
+
+
+Act = Read | Write | Tune
+"""What a conversation needs to be done."""
+
+Acts = Generator[Act, bytes, T]
+"""A conversation that returns T."""
+
+
+class Conversation:
+    """The state of a line, its clock and its observer."""
+
+    def __init__(
+        self, bus: Bus[Response], clock: Callable[[], float], observe: Callable[[Observed], object] | None
+    ) -> None:
+        self.bus = bus
+        self.clock = clock
+        self.observe = observe
+        self._left: Tune | None = None
+        """The line settings to go back to."""
+
+    def start(self, acts: Acts[T]) -> Acts[T]:
+        """Begin a conversation: first undo what a procedure that did not get to its end left behind."""
+        if self._left:
+            yield from self.tune(self._left)
+            self._left = None
+        return (yield from acts)
+
+    def ask(self, command: Query[R], profile: Profile, policy: Policy | None) -> Acts[Result[R]]:
+        """Send a request, and return its outcome with all other traffic meanwhile.
+
+        Errors: as `i7000.host.send`.
+        """
+        before = self.bus.policy
+        bus = send(evolve(self.bus, policy=policy) if policy else self.bus, command, profile, self.clock())
+        others: list[Rejected | Late | Noise] = []
+        outcome: Outcome[R] | None = None
+        self._show(Asked(self.clock(), command, profile))
+        try:
+            while outcome is None:
+                heard = yield Read(next_deadline(bus) or 0.0)
+                now = self._heard(heard)
+                bus, events = receive(bus, heard, now)
+                for event in events:
+                    if isinstance(event, Transmit):
+                        yield Write(event.wire)
+                        self._show(Written(now, event.wire))
+                    elif isinstance(event, Ended):
+                        outcome = event
+                    else:
+                        others.append(event)
+                    self._show(Happened(now, event))
+        except BaseException:
+            bus = abandon(bus, self.clock())
+            self._show(Abandoned(self.clock()))
+            raise
+        finally:
+            self.bus = evolve(bus, policy=before)
+        return Result(outcome, tuple(others))
+
+    def wait(self, step: Wait) -> Acts[None]:
+        """Wait without a request; what arrives meanwhile is heard."""
+        end = self.clock() + step.seconds
+        while self.clock() < end:
+            heard = yield Read(end)
+            now = self._heard(heard)
+            self.bus, events = receive(self.bus, heard, now)
+            for event in events:
+                self._show(Happened(now, event))
+
+    def tune(self, step: Tune) -> Acts[None]:
+        """Change the line settings of the host."""
+        if step.line != self.bus.line:
+            self.bus = evolve(self.bus, line=step.line)  # first: a cancelled task does not stop the port being changed
+            self._show(Tuned(self.clock(), step.line))
+            yield step
+
+    def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None) -> Acts[T]:
+        """Carry out the steps of a procedure, and return its result.
+
+        Special: a procedure that does not get to its end leaves the line settings as they were before it.
+        """
+        before = Tune(self.bus.line)
+        answer: Result[Response] | None = None
+        try:
+            while True:
+                try:
+                    step = procedure.send(answer)
+                except StopIteration as end:
+                    value: T = end.value
+                    return value
+                answer = None
+                if isinstance(step, Ask):
+                    answer = yield from self.ask(step.command, step.profile, step.policy)
+                elif isinstance(step, Tune):
+                    yield from self.tune(step)
+                elif isinstance(step, Wait):
+                    yield from self.wait(step)
+                elif tell:
+                    tell(step.value)
+        except BaseException:
+            self._left = before
+            raise
+        finally:
+            procedure.close()
+
+    def _heard(self, heard: bytes) -> float:
+        """Return the time, after showing bytes."""
+        now = self.clock()
+        if heard:
+            self._show(Received(now, heard))
+        return now
+
+    def _show(self, observed: Observed) -> None:
+        if self.observe:
+            try:
+                self.observe(observed)
+            except Exception:  # noqa: BLE001 - another's
+                self.observe = None
+                _log.exception("the observer of a line failed, and is not called again")

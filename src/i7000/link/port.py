@@ -1,0 +1,121 @@
+"""What a line needs of a port, and the blocking calls of it.
+
+Laws: whatever a port raises comes out as one `LinkError`. pyserial raises many kinds for a port that is gone.
+"""
+
+from collections.abc import Callable
+from contextlib import suppress
+from time import monotonic
+from typing import Any, Protocol
+
+from i7000.errors import I7000Error, InvalidValueError
+from i7000.link.errors import LinkError
+from i7000.settings import BaudRate, LineSettings
+
+__all__ = ["Port", "clock_of", "close", "named", "read", "settings_of", "tune", "write"]
+
+_LONGEST = 3600.0
+"""The longest time in seconds of one read: systems do not take any time."""
+
+
+class Port(Protocol):
+    """The methods and attributes of `serial.Serial` that a line uses."""
+
+    timeout: float | None
+    baudrate: int
+    parity: str
+    stopbits: float
+
+    @property
+    def in_waiting(self) -> int:
+        """The number of bytes that can be read now; fewer is harmless."""
+
+    def read(self, size: int, /) -> bytes:
+        """Return `size` bytes, or fewer after `timeout`."""
+
+    def write(self, data: bytes, /) -> int | None:
+        """Send bytes."""
+
+    def close(self) -> None:
+        """Close the port."""
+
+
+def named(port: Port) -> str:
+    """Return the name of a port for messages."""
+    return getattr(port, "name", None) or type(port).__name__
+
+
+def clock_of(port: Port) -> Callable[[], float]:
+    """Return the clock of a port that has its own time, or else that of this machine."""
+    clock: Callable[[], float] = getattr(port, "now", monotonic)
+    return clock
+
+
+def settings_of(line: LineSettings) -> dict[str, Any]:
+    """Return the settings of a port of pyserial.
+
+    Errors: `InvalidValueError` for an undefined baud rate.
+
+    >>> settings_of(LineSettings())
+    {'baudrate': 9600, 'parity': 'N', 'stopbits': 1}
+    """
+    if not isinstance(line.baud_rate, BaudRate):
+        raise InvalidValueError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
+    form = line.character_format
+    return {"baudrate": line.baud_rate.bits_per_second, "parity": form.parity, "stopbits": form.stop_bits}
+
+
+def read(port: Port, seconds: float) -> bytes:
+    """Return all bytes that a port has, as soon as there are any; none after so many seconds, or after an hour.
+
+    Errors: `LinkError`.
+    """
+    seconds = min(seconds, _LONGEST)
+    try:
+        if port.timeout != seconds:
+            port.timeout = seconds
+        heard = port.read(1)
+        return heard + port.read(port.in_waiting) if heard else heard
+    except I7000Error:
+        raise
+    except Exception as error:
+        raise _lost(port, error) from error
+
+
+def write(port: Port, wire: bytes) -> None:
+    """Send bytes.
+
+    Errors: `LinkError`.
+    """
+    try:
+        count = port.write(wire)
+    except Exception as error:
+        raise _lost(port, error) from error
+    if count is not None and count < len(wire):
+        raise LinkError(f"{named(port)}: only {count} of {len(wire)} bytes could be sent")
+
+
+def tune(port: Port, line: LineSettings) -> None:
+    """Set the baud rate and the character format; a setting that a port has already is left alone.
+
+    Errors: `LinkError`.
+    """
+    settings = settings_of(line)
+    try:
+        for name, value in settings.items():
+            if getattr(port, name) != value:
+                setattr(port, name, value)
+    except Exception as error:
+        raise _lost(port, error, f"cannot be set to {settings['baudrate']} {line.character_format.name}") from error
+
+
+def close(port: Port) -> None:
+    """Close a port, which may be lost."""
+    with suppress(Exception):
+        port.close()
+
+
+def _lost(port: Port, error: Exception, reason: str = "is lost") -> LinkError:
+    if not getattr(port, "is_open", True):
+        return LinkError(f"{named(port)}: the port is closed")
+    return LinkError(f"{named(port)}: the port {reason}: {error}")
