@@ -13,7 +13,6 @@ SPEC = ("tests.spec.lint",)
 FULL = (
     *LINT,
     ("mypy", "src", "tests"),
-    SPEC,
     ("pytest", "--numprocesses=auto", "--dist=worksteal", "--cov", "--cov-report=term"),
 )
 # No processes, no other programs, nothing measured: every vector of `spec/`, and few examples of each property.

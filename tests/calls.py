@@ -319,6 +319,7 @@ LEFT_OUT = {
         _HANDED_OUT,
     ),
     "host.Ended": _BASE,
+    "procedures.confirmed": "takes a procedure, which can be run only once",
     **{name: _BASE for name in surface() if name.endswith(".describe") and kind_of(name) in BASES},
     "modbus.Register.describe": "describes what `RegisterMap.decode` gave",
     **dict.fromkeys(

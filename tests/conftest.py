@@ -12,6 +12,8 @@ from hypothesis import HealthCheck, settings
 
 from tests.terminal import plain, run
 
+pytest_plugins = ["pytester"]
+
 __all__ = ["plain", "run"]
 
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -202,8 +202,8 @@ def test_a_long_line_may_cut_frames_so_it_is_not_all_understood(run: Run) -> Non
 
 
 LOGS = {
-    "zeros": b"\0" * (1 << 20),
-    "no line ends": b"01 04 00 00 00 08 F1 CC " * (1 << 15),
+    "zeros": b"\0" * (1 << 19),
+    "no line ends": b"01 04 00 00 00 08 F1 CC " * (1 << 13),
     "bad lines": b"foo\n" * 50_000,
     "carriage returns": b"\r" * (1 << 18),
     "good lines": b"$012\n!01050600\n01 04 00 00 00 08 F1 CC\n" * 5_000,

@@ -24,6 +24,9 @@ GENEROUS = 2
 """What a byte of the long input may take, of that of the short one."""
 NEGLIGIBLE = 0.005
 """Seconds of processor time for the long input that are too short to be compared."""
+SLOW = 0.3
+"""Seconds of processor time for the short input from which on an eighth of both shows as much: bytes that are copied
+again and again take less than the rest then, at both lengths."""
 
 BLOCKS = {
     "noise": Random(7000).randbytes(4096),
@@ -70,11 +73,12 @@ def inputs() -> list[Any]:
 @pytest.mark.parametrize("block", BLOCKS)
 @pytest.mark.parametrize(("function", "kind"), inputs())
 def test_time_grows_in_proportion_to_bytes_and_text(function: Callable[[Any], Any], kind: type, block: str) -> None:
-    short, long = (of_length(BLOCKS[block], length) for length in (SHORT, SHORT * TIMES))
-    if kind is str:
-        assert grows_in_proportion(function, short.decode("latin-1"), long.decode("latin-1"))
-    else:
-        assert grows_in_proportion(function, short, long)
+    def made(length: int) -> Any:
+        data = of_length(BLOCKS[block], length)
+        return data.decode("latin-1") if kind is str else data
+
+    length = SHORT // TIMES if seconds(function, made(SHORT)) > SLOW else SHORT
+    assert grows_in_proportion(function, made(length), made(length * TIMES))
 
 
 @pytest.mark.parametrize("block", BLOCKS)
@@ -121,7 +125,7 @@ def test_time_grows_in_proportion_to_a_line_in_which_frames_are_looked_for(block
     def find(line: str) -> object:
         return list(pieces([(1, line)]))
 
-    lengths = SHORT // 8, SHORT // 8 * TIMES
+    lengths = SHORT // 32, SHORT // 32 * TIMES
     assert grows_in_proportion(find, *((block * (length // len(block) + 1))[:length] for length in lengths))
 
 

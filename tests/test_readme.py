@@ -9,10 +9,16 @@ import pytest
 
 from i7000 import Fault, Protocol
 from i7000.cli.simulation import read_modules
+from i7000.host import Policy
+from i7000.simulator.faults import Piece
+from tests.host.port import Port
 from tests.terminal import Run
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+PAGE = (ROOT / "docs" / "half_duplex.md").read_text(encoding="utf-8")
 
 
 def run_example(number: int) -> None:
@@ -44,8 +50,42 @@ def test_the_listener_prints_what_its_comments_say(capsys: pytest.CaptureFixture
     assert f"\n# {facts}\n" in README
 
 
+def test_the_simulator_in_a_test_prints_what_its_comment_says(capsys: pytest.CaptureFixture[str]) -> None:
+    run_example(5)
+
+    assert f"# {capsys.readouterr().out.strip()}: a pseudo-terminal" in README
+
+
+def test_the_driver_reads_what_a_module_answers(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    port = Port(lambda _wire, _now: (Piece(b">" + b"+0025.1" * 8 + b"\r", 0.02),))
+    monkeypatch.setattr("time.monotonic", port.now)
+    monkeypatch.setattr("serial.Serial", lambda *_: port)
+
+    run_example(3)
+
+    assert (capsys.readouterr().out, port.written) == ("25.1\n", [b"#01\r"])
+
+
+def test_the_page_about_the_line_has_the_loop_of_the_driver() -> None:
+    (loop,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+
+    assert loop in README
+    assert "(docs/half_duplex.md)" in README
+
+
+def test_the_page_about_the_line_has_the_defaults() -> None:
+    for text, value in re.findall(r"`Policy\.(\w+)`\s\(([\d.]+) (?:s )?unless\sgiven\)", PAGE):
+        assert getattr(Policy(), text) == float(value)
+
+    assert PAGE.count("unless given") == 3
+    assert "1 second after each deadline" in README
+
+
 @pytest.mark.parametrize(
-    "name", [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md"]
+    "name",
+    [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md", "docs/half_duplex.md"],
 )
 def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:
     text = re.sub(r"```.*?```|^[|#].*?$", "", (ROOT / name).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)

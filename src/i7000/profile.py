@@ -5,7 +5,7 @@ from functools import lru_cache
 from operator import itemgetter
 from typing import NamedTuple
 
-from attrs import field
+from attrs import Factory, field
 
 from i7000.arguments import check_int, check_type
 from i7000.availability import Availability
@@ -54,6 +54,11 @@ class Numbers(NamedTuple):
     highest: tuple[float, ...]
 
 
+def _factory_types(profile: "Profile") -> tuple[TypeCode, ...]:
+    known = isinstance(profile.model, Model) and isinstance(profile.single_ended, bool)
+    return _places(profile.model, single_ended=profile.single_ended).types if known else ()
+
+
 @frozen
 class Profile:
     """The properties of a module that a host needs to decode its bytes. Only `model` is required.
@@ -73,7 +78,7 @@ class Profile:
     """The firmware; None means the newest."""
     single_ended: bool = field(default=False, kw_only=True)
     """20 single-ended channels instead of 10 differential ones: 7017Z only."""
-    type_codes: tuple[TypeCode, ...] = field(kw_only=True)
+    type_codes: tuple[TypeCode, ...] = field(default=Factory(_factory_types, takes_self=True), kw_only=True)
     data_format: DataFormat = field(default=DataFormat.ENGINEERING, kw_only=True)
     checksum: bool = field(default=False, kw_only=True)
     modbus_data_format: ModbusDataFormat = field(default=ModbusDataFormat.HEX, kw_only=True)
@@ -93,11 +98,6 @@ class Profile:
     """Whether out-of-range readings are ``+9999`` and ``-0000``, five characters instead of seven (E49)."""
     refused: frozenset[Availability] = field(init=False, eq=False, repr=False)
     """The members of `Availability` that the module does not have."""
-
-    @type_codes.default
-    def _factory_types(self) -> tuple[TypeCode, ...]:
-        known = isinstance(self.model, Model) and isinstance(self.single_ended, bool)
-        return _places(self.model, single_ended=self.single_ended).types if known else ()
 
     def __attrs_post_init__(self) -> None:
         self._check_kinds()

@@ -295,6 +295,7 @@ def test_every_row_is_read_and_what_is_read_can_be_written(model: Model) -> None
                 assert module.read(row.number) == value
 
 
+@pytest.mark.no_cover
 @each_model
 def test_no_item_outside_the_map_is_read_or_written(model: Model) -> None:
     module = rtu(model)

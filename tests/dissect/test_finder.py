@@ -274,3 +274,25 @@ def test_characters_as_html_and_urls_write_them_are_read(text: str, wire: bytes)
 
 def test_a_damaged_frame_in_a_url_is_read_as_it_was_sent() -> None:
     assert wires("c=%7E01M%0D") == [b"~01M\r"]
+
+
+@pytest.mark.parametrize(
+    "before", ["#17 ", "@12:00 ", "1704067200 ", "1704067200123 ", "[pid  1234] ", "~5ms ", "50% ", "E01 ", "0x1F4 "]
+)
+@pytest.mark.parametrize("name", ["colons", "one word", "JSON, numbers", "modbus-tk", "octal", "libmodbus, requests"])
+def test_a_number_before_a_frame_is_no_frame(before: str, name: str) -> None:
+    spell = BYTES[name]
+
+    assert [wires(before + spell(wire)) for wire in MODBUS + DCON] == [[wire] for wire in MODBUS + DCON]
+
+
+@pytest.mark.parametrize("after", [" @12", " ~5ms", " #2", " 100%", " $ok", " -> module 01", " // 01"])
+def test_a_number_behind_a_frame_is_no_frame(after: str) -> None:
+    found = [find(REQUEST.hex(":") + after), find("!01050600\\r" + after)]
+
+    assert [[it.wire for it in one] for one in found] == [[REQUEST], [b"!01050600\r"]]
+
+
+def test_a_command_before_its_response_is_no_counter() -> None:
+    assert wires("#01 >+0025.1") == wires("#01 RX: 3E 2B 30 30 32 35 2E 31 0D") == [b"#01\r", b">+0025.1\r"]
+    assert wires("#17 is polled") == [b"#17\r"]

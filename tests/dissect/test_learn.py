@@ -339,3 +339,7 @@ def test_a_meaning_says_which_facts_were_given_or_assumed(types: tuple[TypeCode]
     (meaning,) = last_heard("#010", ">+02.500", known=Known(Model.I_7017, types=types)).meanings
 
     assert (meaning.facts[0].name, meaning.facts[0].origin) == ("types", origin)
+
+
+def test_a_name_that_was_set_does_not_show_the_model() -> None:
+    assert learned("~01O7019R", "!01", "$01M", "!017019R") == {"name": "7019R"}

@@ -47,6 +47,7 @@ def spelled() -> st.SearchStrategy[str]:
     return in_text | in_hex.map(lambda it: it[0].join(f"{byte:02X}" for byte in it[1]))
 
 
+@pytest.mark.no_cover
 @settings(max_examples=1000, deadline=timedelta(seconds=1))
 @given(st.lists(st.sampled_from(TOKENS), max_size=6).map("".join), spelled(), st.sampled_from(ENDS))
 def test_a_plain_line_has_the_frame_that_the_whole_search_finds(before: str, frame: str, end: str) -> None:

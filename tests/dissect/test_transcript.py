@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from i7000 import modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
 from tests.dissect.frames import DCON, MODBUS, REQUEST, RESPONSE
@@ -138,3 +139,21 @@ def test_a_frame_in_lines_that_begin_alike_is_put_together(lines: list[str]) -> 
     (piece,) = pieces_of(*lines)
 
     assert (piece.kind, piece.wire) == (Kind.MODBUS, RESPONSE)
+
+
+def test_a_damaged_frame_in_decimal_is_found_whole() -> None:
+    (piece,) = pieces_of("<-1-4-16-7-208-7-209-10-13-28-37-180-218")
+
+    assert (piece.kind, piece.wire) == (Kind.DAMAGED, bytes((1, 4, 16, 7, 208, 7, 209, 10, 13, 28, 37, 180, 218)))
+
+
+@pytest.mark.parametrize("line", ["total 10 16 28 37 180 in all", "of 180, 10, 16, 28, 37 in all"])
+def test_numbers_in_decimal_of_which_a_part_could_be_hex_are_no_damaged_frame(line: str) -> None:
+    assert [piece.kind for piece in pieces_of(line)] == [None]
+
+
+@pytest.mark.parametrize("name", ["hexdump -C", "xxd", "tshark -x", "Format-Hex"])
+def test_the_last_byte_of_a_long_dump_belongs_to_the_frame_whatever_its_offset(name: str) -> None:
+    wire = modbus.seal(bytes((1, 4, 156, *range(156))))
+
+    assert [it.wire for it in pieces_of(*DUMPS[name](wire)) if it.kind] == [wire]

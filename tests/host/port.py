@@ -27,6 +27,8 @@ class Port:
     def __init__(self, answer: Answer, uart: Uart | None = None) -> None:
         self.answer, self.character_time = answer, (uart or Uart()).character_time
         self.timeout: float | None = None
+        self.fails: type[BaseException] | None = None
+        """What the next call of `read` after a request raises, once."""
         self.time = 0.0
         self.written: list[bytes] = []
         self._coming: list[tuple[float, int, int]] = []
@@ -67,6 +69,9 @@ class Port:
             self.time = max(self.time, min(until, self._next_at(until)))
 
     def read(self, size: int = 1) -> bytes:
+        if self.fails and self.written:
+            failure, self.fails = self.fails, None
+            raise failure
         return self._read(lambda: self.in_waiting >= size, size)
 
     def read_until(self, end: bytes) -> bytes:

@@ -32,7 +32,7 @@ TO_ALL = modbus.WriteSingleCoil(0x00, 2, value=True)
 
 
 def sent(command: Query[Any], profile: Profile = PROFILE) -> Bus[Response]:
-    bus, events = receive(send(IDLE, command, profile, 0.0), b"", 0.0)
+    bus, events = receive(send(IDLE, command, profile, -IDLE.silence), b"", 0.0)
 
     assert [Transmit] == [type(event) for event in events]
     return bus
@@ -55,7 +55,7 @@ def test_a_request_that_was_not_sent_owes_nothing() -> None:
 
     assert bus == IDLE
     assert next_deadline(bus) is None
-    assert next_is_sent_at(bus) == 1.0
+    assert next_is_sent_at(bus) == 1.0 + IDLE.silence
 
 
 @pytest.mark.parametrize("now", [0.0, 0.05, 0.3])

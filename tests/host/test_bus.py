@@ -63,8 +63,9 @@ def idle(**changes: Any) -> Bus[Any]:
 
 
 def ask(bus: Bus[Any], command: Query[Any], profile: Profile = M7019, now: float = 0.0) -> Bus[Any]:
-    """Send what goes out at once."""
-    bus, events = go(send(bus, command, profile, now), now)
+    """Open a request so that it goes out now, after its short silence."""
+    bus = send(bus, command, profile, max(bus.clock, now - bus.silence))
+    bus, events = go(bus, due(bus))
 
     assert [Transmit] == [type(event) for event in events]
     return bus
@@ -103,11 +104,12 @@ def due(bus: Bus[Any]) -> float:
         (COIL, M7019, COIL_WIRE),
     ],
 )
-def test_a_request_goes_out_at_once_on_an_idle_line(command: Any, profile: Profile, wire: bytes) -> None:
+def test_a_request_goes_out_after_a_short_silence_on_an_idle_line(command: Any, profile: Profile, wire: bytes) -> None:
     bus = send(idle(), command, profile, 0.0)
 
-    assert next_deadline(bus) == 0.0
-    assert (Transmit(wire),) == go(bus, 0.0)[1]
+    assert pytest.approx(SILENCE) == next_deadline(bus)
+    assert go(bus, 0.0)[1] == ()
+    assert (Transmit(wire),) == go(bus, due(bus))[1]
 
 
 def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing() -> None:

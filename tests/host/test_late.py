@@ -9,10 +9,9 @@ from attrs import evolve
 
 from i7000 import Model, Profile, Protocol, TypeCode, Unit, dcon, modbus
 from i7000.device import Signals, State, factory, power_on
-from i7000.examples import async_driver, sync_driver
-from i7000.host import Answered, Bus, Outcome, Query, Response, TimedOut
+from i7000.host import Answered, Outcome, Query, Response, TimedOut
+from i7000.link import AsyncLine, Line, Observed, VirtualPort, Written
 from i7000.simulator.faults import Faults
-from tests.host.port import Port, run, simulated
 
 FAULTS = Faults(late=0.25, late_by=0.9)
 SEED = 3
@@ -41,7 +40,7 @@ MODBUS: tuple[tuple[Query[Response], float], ...] = (
 """Two requests of equal length to one module: nothing in a response says which of them it answers."""
 
 
-def port() -> Port:
+def port() -> VirtualPort:
     modules = (
         module(0x01, Protocol.DCON),
         module(0x02, Protocol.DCON),
@@ -49,7 +48,7 @@ def port() -> Port:
         module(0x04, Protocol.MODBUS_RTU),
     )
     signals = (Signals.of(Unit.CELSIUS, *[100.0] * 8), Signals.of(Unit.CELSIUS, *[500.0] * 8), HOT, HOT)
-    return Port(simulated(modules, signals, FAULTS, SEED))
+    return VirtualPort(modules, signals, FAULTS, seed=SEED)
 
 
 def value(response: Response) -> float | None:
@@ -62,7 +61,7 @@ def value(response: Response) -> float | None:
     return dcon.readings(response, PROFILE)[0].value
 
 
-def check(requests: Any, outcomes: list[Outcome[Response]], line: Port) -> None:
+def check(requests: Any, outcomes: list[Outcome[Response]], seen: list[Observed]) -> None:
     """Hold each value against the module that was asked."""
     wrong = [
         (number, outcome)
@@ -73,7 +72,7 @@ def check(requests: Any, outcomes: list[Outcome[Response]], line: Port) -> None:
     assert wrong == []
     assert {Answered, TimedOut} >= {type(outcome) for outcome in outcomes}
     assert sum(isinstance(outcome, Answered) for outcome in outcomes) > 0.9 * POLLS
-    assert len(line.written) > 1.2 * POLLS  # many were late
+    assert sum(isinstance(it, Written) for it in seen) > 1.2 * POLLS  # many were late
 
 
 each_pair = pytest.mark.parametrize("requests", [DCON, CHANNELS, MODBUS], ids=["modules", "channels", "modbus"])
@@ -82,31 +81,29 @@ each_sleep = pytest.mark.parametrize("sleep", [0.0, 0.7])
 
 @each_pair
 @each_sleep
-def test_the_synchronous_example_never_delivers_another_value(
-    requests: Any, sleep: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    line: Any = port()
-    monkeypatch.setattr(sync_driver, "monotonic", line.now)
-    driver = sync_driver.Driver(line, Bus())
+def test_a_line_never_delivers_another_value(requests: Any, sleep: float) -> None:
+    seen: list[Observed] = []
     outcomes = []
 
-    for command, _ in islice(cycle(requests), POLLS):
-        outcomes.append(driver.ask(command, PROFILE))
-        line.sleep(sleep)
+    with Line(port(), observe=seen.append) as line:
+        for command, _ in islice(cycle(requests), POLLS):
+            outcomes.append(line.ask(command, PROFILE))
+            line.wait(sleep)
 
-    check(requests, outcomes, line)
+    check(requests, outcomes, seen)
 
 
 @each_pair
 @each_sleep
-def test_the_example_for_asyncio_never_delivers_another_value(requests: Any, sleep: float) -> None:
-    line: Any = port()
+def test_a_line_for_asyncio_never_delivers_another_value(requests: Any, sleep: float) -> None:
+    seen: list[Observed] = []
 
     async def poll() -> list[Outcome[Response]]:
-        driver, outcomes = async_driver.Driver(line, Bus()), []
-        for command, _ in islice(cycle(requests), POLLS):
-            outcomes.append(await driver.ask(command, PROFILE))
-            await asyncio.sleep(sleep)
+        outcomes = []
+        async with AsyncLine(port(), observe=seen.append) as line:
+            for command, _ in islice(cycle(requests), POLLS):
+                outcomes.append(await line.ask(command, PROFILE))
+                await line.wait(sleep)
         return outcomes
 
-    check(requests, run(line, poll), line)
+    check(requests, asyncio.run(poll()), seen)

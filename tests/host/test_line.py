@@ -138,6 +138,7 @@ def test_a_module_that_is_always_late_is_never_taken_for_another(
     assert line.transmissions == sum(isinstance(event, Late) for event in line.events)
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("asked", [inputs(0x01, SEALED), words(0x01)], ids=["DCON", "Modbus"])
 @pytest.mark.parametrize("echo", [False, True])
 @pytest.mark.parametrize("babble", [b"\xff", b">", b"\r", b"\x01\x04\x40", b"!01FF\r", b"\x01"])

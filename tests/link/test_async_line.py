@@ -8,13 +8,14 @@ from typing import Any
 
 import pytest
 
-from i7000 import BaudRate, LineSettings, Profile, dcon
+from i7000 import BaudRate, Firmware, LineSettings, Model, Profile, dcon
 from i7000.host import Answered, Late, Outcome, TimedOut
 from i7000.host.procedures import Procedure, Tune, ask
-from i7000.link import AsyncLine, Happened, LinkError, Observed, VirtualPort, async_line
+from i7000.link import Asked, AsyncLine, Happened, LinkError, Observed, Tuned, VirtualPort, Written, async_line
 from i7000.link.worker import Worker
 from i7000.message import Query, Response
 from tests.link.scene import FAST, HASTY, MODULES, NO_SUCH_MODULE, PROFILE, requests, truth
+from tests.simulator.running import module as simulated
 from tests.waiting import ENOUGH, until
 
 READ = dcon.ReadAnalogInput(0x01, 0)
@@ -151,15 +152,56 @@ def test_a_cancelled_procedure_leaves_the_line_settings_as_they_were() -> None:
         yield from ask(NO_SUCH_MODULE, PROFILE)
 
     async def cancelled(port: HeldUp) -> Outcome[Response]:
-        async with opened(port) as line:
+        def observe(observed: Observed) -> None:
+            if observed == Tuned(0.0, LineSettings(BaudRate.BAUD_1200)):
+                task.cancel()
+
+        async with opened(port, observe) as line:
             task = asyncio.create_task(line.run(tuned_away()))
-            await asyncio.to_thread(until, lambda: port.baudrate == 1200)
-            task.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await task
             return await line.ask(READ, PROFILE)
 
     assert asyncio.run(cancelled(bus())) == truth(READ)
+
+
+CALIBRATION = dcon.CalibrateChannelZero(0x01, 0)
+OLD = Profile(Model.I_7019R, firmware=Firmware("B2.6"))
+"""A module that calibrates for 16 seconds."""
+
+
+@pytest.mark.parametrize("sent", [False, True])
+def test_a_cancelled_task_leaves_the_silence_that_is_owed_to_the_next(sent: bool) -> None:  # noqa: FBT001
+    port = VirtualPort([simulated(OLD.model, str(OLD.firmware))])
+    end: type[Observed] = Written if sent else Asked
+
+    async def cancel_and_ask() -> Outcome[Response]:
+        def observe(observed: Observed) -> None:
+            if isinstance(observed, end):
+                task.cancel()
+
+        async with AsyncLine(port, observe=observe) as line:
+            task = asyncio.create_task(line.ask(CALIBRATION, OLD))
+            with pytest.raises(asyncio.CancelledError):
+                await task
+            return await line.ask(dcon.ReadModuleName(0x01), OLD)
+
+    assert isinstance(asyncio.run(cancel_and_ask()), Answered)
+    assert port.now() > 17.0 if sent else port.now() < 0.3
+
+
+def test_the_tasks_that_wait_behind_a_cancelled_one_are_served() -> None:
+    async def ask() -> list[Any]:
+        async with opened(bus()) as line:
+            tasks = [asyncio.create_task(line.ask(READ, PROFILE)) for _ in range(3)]
+            await asyncio.sleep(0)
+            tasks[1].cancel()
+            return list(await asyncio.gather(*tasks, return_exceptions=True))
+
+    first, second, third = asyncio.run(ask())
+
+    assert first == third == truth(READ)
+    assert isinstance(second, asyncio.CancelledError)
 
 
 # --- closing ----------------------------------------------------------------------------------------------------------

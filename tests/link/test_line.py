@@ -10,7 +10,7 @@ import pytest
 from attrs import frozen
 
 from i7000 import BaudRate, CharacterFormat, EncodeError, LineSettings, dcon, modbus
-from i7000.errors import I7000Error
+from i7000.errors import I7000Error, InvalidValueError, StateError
 from i7000.host import Answered, Declined, Late, Outcome, Policy, Sent, TimedOut, Transmit
 from i7000.host.procedures import Ask, Procedure, Result, Tell, Tune, Wait, ask
 from i7000.link import (
@@ -132,6 +132,7 @@ CASES = {
     "late": Case(Faults(late=0.1, late_by=0.1), Policy(retries=3, turnaround=0.03, grace=0.2)),
     "silent": Case(Faults(silent=0.2)),
     "truncate": Case(Faults(truncate=0.2)),
+    "duplicate": Case(Faults(duplicate=0.5)),
     "misaddress": Case(Faults().at(0x03, misaddress=0.2)),
     "all": Case(
         Faults(echo=True, lumps=True, drop=0.001, flip=0.001, noise=0.1, late=0.1, late_by=0.3),
@@ -143,14 +144,14 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_whatever_the_line_does_nothing_wrong_is_read(opened: Open, case: Case) -> None:
-    asked = list(requests(60))
+    asked = list(requests(40))
 
     outcomes = opened(bus(case.faults), FAST, case.policy, echo=case.echo).ask(*asked)
 
     answered = [outcome for outcome in outcomes if isinstance(outcome, Answered)]
     assert [command for command, _ in asked] == [outcome.command for outcome in outcomes]
     assert [truth(outcome.command) for outcome in answered] == answered
-    assert len(answered) >= 0.97 * len(asked)
+    assert len(answered) >= 0.95 * len(asked)
 
 
 def test_each_request_has_the_outcome_that_is_its_own(opened: Open) -> None:
@@ -257,9 +258,15 @@ def test_the_port_gets_the_settings_of_the_line(opened: Open) -> None:
 def test_a_line_can_wait() -> None:
     port = bus()
     with Line(port, FAST) as line:
-        line.wait(10.0)
+        line.wait(1e5)
 
-    assert port.now() == 10.0
+    assert port.now() == 1e5
+
+
+@pytest.mark.parametrize("seconds", [-1.0, float("inf")])
+def test_a_line_does_not_wait_for_an_impossible_time(seconds: float) -> None:
+    with Line(bus(), FAST) as line, pytest.raises(InvalidValueError, match="seconds"):
+        line.wait(seconds)
 
 
 @pytest.mark.parametrize("line", [FAST, LineSettings()])
@@ -373,8 +380,8 @@ def test_an_observer_hears_each_byte_and_each_event_in_order(opened: Open) -> No
     assert heard == b">+0025.18F\r"
     assert others == [
         Asked(0.0, READ, PROFILE),
-        Written(0.0, b"#010B4\r"),
-        Happened(0.0, Transmit(b"#010B4\r")),
+        Written(others[1].at, b"#010B4\r"),
+        Happened(others[1].at, Transmit(b"#010B4\r")),
         Happened(seen[-1].at, truth(READ)),
     ]
     assert [it.at for it in seen] == sorted(it.at for it in seen)
@@ -495,6 +502,36 @@ def test_settings_that_a_port_cannot_have_are_an_error(opened: Open) -> None:
 
     with pytest.raises(LinkError, match="Slow: the port cannot be set to 1200 N81: too slow"):
         opened(Slow(MODULES), LineSettings(BaudRate.BAUD_1200))
+
+
+@pytest.mark.parametrize("kind", [Line, AsyncLine])
+def test_a_port_is_closed_again_if_its_line_cannot_be_made(
+    kind: type[Line | AsyncLine], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    closed: list[VirtualPort] = []
+
+    def close(port: VirtualPort) -> None:
+        closed.append(port)
+
+    async def opened(policy: Any) -> None:
+        line = kind.open("sim:I-7018", policy=policy)
+        if not isinstance(line, Line):
+            await line
+
+    monkeypatch.setattr(VirtualPort, "close", close)
+    with pytest.raises(InvalidValueError, match="policy") as raised:
+        asyncio.run(opened("patient"))
+
+    assert raised.value.field == "policy"  # it holds the port, which is closed when it is forgotten
+    assert "sim:I-7018" in [port.name for port in closed]
+
+
+def test_a_call_during_another_is_refused_and_disturbs_nothing() -> None:
+    with Line(bus(), FAST) as line:
+        with pytest.raises(StateError, match="the line is in use"):
+            line.run(steps(Tell(1)), lambda _: line.ask(READ, PROFILE))
+
+        assert line.ask(READ, PROFILE) == truth(READ)
 
 
 def test_a_wrong_use_of_a_virtual_port_is_its_own_error(opened: Open) -> None:

@@ -15,7 +15,7 @@ from serial.tools.list_ports_common import ListPortInfo
 
 from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings, Unit
 from i7000.device import Signals
-from i7000.link import LinkError, ProcessPort, VirtualPort, open_target, target
+from i7000.link import LinkError, ProcessPort, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulator.running import I_7018, RFC_2217, SAID, TRANSPORTS, running
 
@@ -53,7 +53,9 @@ def test_a_device_is_opened_with_the_settings_of_the_line_for_this_program_alone
 
 def test_a_device_that_does_not_exist_is_an_error_with_those_that_do(monkeypatch: pytest.MonkeyPatch) -> None:
     def listed(count: int) -> None:
-        monkeypatch.setattr(target, "comports", lambda: [ListPortInfo(f"COM{number}") for number in range(count)])
+        monkeypatch.setattr(
+            "serial.tools.list_ports.comports", lambda: [ListPortInfo(f"COM{number}") for number in range(count)]
+        )
 
     listed(0)
     assert refusal("/dev/no") == (
@@ -64,6 +66,11 @@ def test_a_device_that_does_not_exist_is_an_error_with_those_that_do(monkeypatch
     assert refusal("/dev/no").endswith("; the serial ports here are COM0, COM1")
     listed(9)
     assert refusal("/dev/no").endswith("COM6, COM7, ...")
+
+
+def test_an_undefined_baud_rate_is_an_error() -> None:
+    with pytest.raises(InvalidValueError, match=r"baud_rate cannot be '3F': 03\.\.0A"):
+        open_target("/dev/ttyUSB0", LineSettings(0x3F))
 
 
 def test_a_file_that_is_no_serial_port_is_an_error() -> None:
@@ -132,11 +139,19 @@ def test_a_loop_returns_what_is_written() -> None:
         assert port.read(5) == b"$012\r"
 
 
-def test_an_unknown_scheme_is_an_error_with_those_that_are_known() -> None:
-    assert refusal("tcp://127.0.0.1:5020") == (
-        "target cannot be 'tcp://127.0.0.1:5020': a device such as /dev/ttyUSB0 or COM3, socket://HOST:PORT, "
+@pytest.mark.parametrize(
+    "text",
+    ["tcp://127.0.0.1:5020", "socket://:5020", "rfc2217://localhost", "socket://localhost:http", "socket://[::1"],
+)
+def test_a_url_that_is_none_of_pyserial_is_an_error_with_those_that_are(text: str) -> None:
+    assert refusal(text) == (
+        f"target cannot be '{text}': a device such as /dev/ttyUSB0 or COM3, socket://HOST:PORT, "
         "rfc2217://HOST:PORT, sim:MODEL or exec:COMMAND"
     )
+
+
+def test_a_url_that_matches_no_port_is_an_error() -> None:
+    assert refusal("hwgrep://no_such") == "hwgrep://no_such: no ports found matching regexp 'no_such'"
 
 
 @pytest.mark.parametrize("text", ["", " "])
@@ -179,8 +194,8 @@ def test_simulated_modules_have_faults_signals_and_the_init_switch() -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("sim:", "target cannot be 'sim:': '': model cannot be ''"),
-        ("sim:I-7020", "target cannot be 'sim:I-7020': 'I-7020': model cannot be 'I-7020': I-7017"),
+        ("sim:", "target cannot be 'sim:': module '': there is no model ''"),
+        ("sim:I-7020", "target cannot be 'sim:I-7020': module I-7020: there is no model 'I-7020'; did you mean I-7018"),
         ("sim:I-7018,typ=K", "a module has no setting 'typ'"),
     ],
 )

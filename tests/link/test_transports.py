@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 import serial
 
-from i7000 import dcon
+from i7000 import dcon, modbus
 from i7000.host import Answered, Outcome, Policy
 from i7000.link import AsyncLine, Line, LinkError, open_target
 from i7000.message import Response
 from i7000.simulator.faults import Faults
 from tests import simulation
-from tests.link.scene import FAST, MODULES, NO_SUCH_MODULE, PROFILE, requests, truth
+from tests.link.scene import FAST, MODULES, NO_SUCH_MODULE, PROFILE, PROFILES, requests, truth
 from tests.simulator.running import RFC_2217, TRANSPORTS, running
 from tests.waiting import ENOUGH
 
@@ -78,12 +78,15 @@ def test_a_wrong_baud_rate_over_rfc_2217_is_no_answer_and_the_line_can_be_tuned(
 
 
 def test_a_simulator_in_its_own_process_is_asked_on_its_pseudo_terminal() -> None:
-    arguments = ("--model", "M-7019R,type=K,protocol=dcon,checksum=true", "--signal", "all=25.1degC")
+    kelvin, volts = ("--model", "M-7019R,type=K,protocol=dcon,checksum=true"), ("--model", "M-7017,type=V_10")
+    arguments = (*kelvin, *volts, "--signal", "01:all=25.1degC", "--signal", "02:all=-5V")
     with simulation.process(*arguments, stdout=subprocess.PIPE, text=True) as started:
         assert started.stdout
         path = started.stdout.readline().strip()
         with Line.open(path, policy=PATIENT) as line:
             assert line.ask(READ, PROFILE) == truth(READ)
+            inputs = modbus.ReadInputRegisters(0x02, 0, 2)
+            assert line.ask(inputs, PROFILES[0x03]) == Answered(inputs, modbus.InputRegisters(0x02, (0xC000, 0xC000)))
 
 
 # --- ports that disappear ---------------------------------------------------------------------------------------------
@@ -175,7 +178,7 @@ def test_a_port_of_the_user_keeps_its_class() -> None:
 
 INTERRUPTED = """
 import sys
-from i7000 import dcon
+from i7000 import dcon, modbus
 from i7000.host import Policy
 from i7000.link import Line
 from tests.link.scene import FAST, NO_SUCH_MODULE, PROFILE, truth

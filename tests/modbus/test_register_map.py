@@ -550,7 +550,7 @@ def test_a_log_has_six_records_of_16_readings_and_a_time() -> None:
     words = [word for record in range(6) for word in (*range(record, record + 16), 0x5678 + record, 0x1234)]
     assert modbus.ReadInputRegisters(1, 1000, 108) == LOGGER.read(0x01, "log_records")
 
-    records = LOGGER.decode("log_records", words)
+    records: Any = LOGGER.decode("log_records", words)
 
     assert [record.time for record in records] == [0x12345678 + at for at in range(6)]
     assert [record.readings for record in records] == [

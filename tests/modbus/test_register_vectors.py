@@ -25,7 +25,7 @@ def decoded(vector: Record) -> tuple[modbus.Register, tuple[Any, ...]]:
     width = row.kind.width
     channels = range(vector["first"], vector["first"] + max(1, len(vector["items"]) // width))
     several = row.count > width
-    values = registers.decode(
+    values: Any = registers.decode(
         row.name, vector["items"], channels=channels if several else None, big_endian=vector["big_endian"]
     )
     return row, values if several else (values,)

@@ -90,7 +90,7 @@ def test_some_channels_are_written_and_read_like_all(data: st.DataObject) -> Non
     first = data.draw(st.integers(0, len(items) - 1))
     channels = range(first, data.draw(st.integers(first + 1, len(items))))
 
-    values = found.decode(row.name, items)
+    values: Any = found.decode(row.name, items)
     request = found.read(0x01, row.number, channels=channels)
 
     assert values[first : channels.stop] == found.decode(row.number, items[first : channels.stop], channels=channels)
@@ -105,7 +105,7 @@ def test_readings_and_records_are_decoded_as_the_module_sent_them(found: Registe
     items = data.draw(register_items(row, found.profile))
     big_endian = data.draw(st.booleans())
 
-    value = found.decode(row.name, items, big_endian=big_endian)
+    value: Any = found.decode(row.name, items, big_endian=big_endian)
 
     if row.kind is Kind.READING:
         assert modbus.readings(items, found.profile) == value

@@ -89,14 +89,13 @@ def test_a_modbus_engineering_word_beyond_the_span_is_not_written(code: TypeCode
 @pytest.mark.parametrize(
     ("data_format", "texts"), [(DataFormat.ENGINEERING, engineering_texts), (DataFormat.PERCENT, percent_texts)]
 )
-def test_every_text_of_the_span_is_written_as_it_was_read(
+def test_every_text_of_the_span_is_a_number_and_written_as_it_was_read(
     code: TypeCode, data_format: DataFormat, texts: Callable[[TypeCode], list[str]]
 ) -> None:
-    wrong = [
-        text for text in texts(code) if text != encode_field(decode_field(text, code, data_format), code, data_format)
-    ]
+    read = {text: decode_field(text, code, data_format) for text in texts(code)}
 
-    assert wrong == []
+    assert {reading.status for reading in read.values()} == {Status.OK}
+    assert [text for text, reading in read.items() if text != encode_field(reading, code, data_format)] == []
 
 
 @given(TYPES, FORMATS, st.data())
@@ -151,14 +150,6 @@ def test_an_end_of_a_span_that_reads_back_as_a_status_is_one_of_these(code: Type
         assert statuses == {code.maximum: Status.OVER_RANGE}
     else:
         assert statuses == {}
-
-
-@each_type
-def test_no_text_of_a_span_is_a_status(code: TypeCode) -> None:
-    for data_format, texts in ((DataFormat.ENGINEERING, engineering_texts), (DataFormat.PERCENT, percent_texts)):
-        found = {decode_field(text, code, data_format).status for text in texts(code)}
-
-        assert found == {Status.OK}
 
 
 # --- what cannot be said ----------------------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ from tests.waiting import ENOUGH
 
 
 def asked(running: RunningSimulator, command: bytes) -> bytes:
-    opened: Any = serial.serial_for_url(running.url, timeout=ENOUGH)
+    opened: Any = serial.serial_for_url(running, timeout=ENOUGH)
     with opened:
         opened.write(command)
         return bytes(opened.read_until(b"\r"))
@@ -29,7 +29,7 @@ def asked(running: RunningSimulator, command: bytes) -> bytes:
 )
 def test_a_driver_opens_the_url(over: Any, begins: str) -> None:
     with simulate(I_7018, over=over) as running:
-        assert running.url.startswith(begins)
+        assert running.startswith(begins)
         assert asked(running, b"#01\r") == SAID
 
 
@@ -47,7 +47,7 @@ def test_models_and_eeproms_are_modules_with_signals() -> None:
 
 def test_nothing_is_left_after_the_context() -> None:
     with simulate(Model.I_7018, over="socket") as running:
-        host, _, number = running.url.removeprefix("socket://").rpartition(":")
+        host, _, number = running.removeprefix("socket://").rpartition(":")
     with pytest.raises(serial.SerialException):
         serial.serial_for_url(f"socket://{host}:{number}")
 
@@ -146,7 +146,7 @@ def test_without_pseudo_terminals_it_is_rfc_2217(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setitem(sys.modules, "i7000.simulator.pseudo_terminal", None)
 
     with simulate(Model.I_7018) as running:
-        assert running.url.startswith("rfc2217://")
+        assert running.startswith("rfc2217://")
     with pytest.raises(InvalidValueError, match="socket or rfc2217 on this system"), simulate(over="pty"):
         pass
 

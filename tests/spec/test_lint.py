@@ -22,6 +22,8 @@ VECTOR_FILES = [pytest.param(path, id=lint.name(path)) for path in lint.vector_f
 FORMATS = ("engineering", "percent", "hex")
 CR = b"\r"
 
+pytestmark = pytest.mark.no_cover
+
 MODELS = {row["name"]: row for row in lint.rows("models")}
 TYPES = {row["code"]: row for row in lint.rows("type_codes")}
 COMMANDS = {row["section"]: row for row in lint.rows("dcon_commands")}

@@ -3,13 +3,15 @@
 Parts, from the outside:
 
 * `app` has the commands, each in a module of its own: `decode`, `encode`, `commands`, `registers`, `errata`,
-  `simulate`. `options` has what several of them take.
+  `simulate`, `proxy`. `options` has what several of them take.
 * For `decode`: `source` reads lines and bytes as they arrive, `readers` gives them to `i7000.dissect`, `frame_text`
   makes lines for people of what that returns, `records` JSON, `schema` describes the JSON.
 * For `encode`: `message` makes a message of ``field=value``, `by_register` of register names and the map of a model.
 * For `commands`, `registers` and `errata`: `explain` collects facts, `facts` reads ``spec/``, `explain_text` prints.
-* For `simulate`: `simulation` runs it, `module` and `signals` read its options, `traffic` and `view` show what happens,
-  `outlet` writes without waiting.
+* For `simulate`: `simulation` runs it; `module`, `signals` and `faults` read its options; `traffic`, `view` and
+  `module_text` show what happens; `control`, `operating` and `keys` operate it while it runs.
+* For `proxy`: `proxying` runs it. For both: `serving` has their ports and how they end, and `outlet` writes without
+  waiting.
 * For all: `words`, `choices`, `numbers` and `units` read values, `refusals` reports those that are refused, `text`
   prints.
 

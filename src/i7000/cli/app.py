@@ -12,6 +12,7 @@ from i7000.cli.decode import decode
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
+from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
@@ -30,7 +31,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, listen, read, simulate):
+for _command in (decode, encode, commands, registers, errata, listen, read, simulate, proxy):
     app.command(_command)
 
 
@@ -52,7 +53,7 @@ def run(arguments: Sequence[str] | None) -> int:
     except (CycloptsError, UsageError, OSError) as error:
         with suppress(OSError, SystemExit):  # The terminal may be gone.
             Printer().error(_words(error))
-        return getattr(error, "code", 2)
+        return error.code if isinstance(error, UsageError) else 2
     except ModuleNotFoundError as missing:
         extra = _EXTRAS.get(missing.name or "", "cli")
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[{extra}]"')

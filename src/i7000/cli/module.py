@@ -52,10 +52,11 @@ class Described:
     """The names of the settings in the description, and ``firmware``."""
 
 
-def read_module(text: str, address: int) -> Described:
+def read_module(text: str, address: int, given: str = "--model") -> Described:
     """Read a module.
 
     Shape: ``MODEL[@FIRMWARE][,name=value...]``; other settings have the factory default, the address is `address`.
+        `given` is what the text was written after, for messages.
     Errors: `UsageError`.
 
     >>> described = read_module("I-7018@B2.9,type=K,checksum=true", 0x02)
@@ -66,7 +67,7 @@ def read_module(text: str, address: int) -> Described:
     head, *assignments = text.split(",")
     name, at, firmware = head.partition("@")
     written: dict[str, tuple[str, str]] = {}
-    with named(f"--model {text or repr(text)}"):
+    with named(f"{given} {text or repr(text)}"):
         made = factory(model(name.strip()), Firmware(firmware.strip()) if at else None)
         values = _assigned(assignments, made, written)
         init_switch = values[""].pop("init_switch", False)

@@ -101,15 +101,12 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
     from i7000.cli.faults import read_faults  # noqa: PLC0415
+    from i7000.cli.serving import read_place  # noqa: PLC0415
 
     printer = Printer()
     if control == "-" and view == "live":
         raise UsageError("--control - and the keys of --view live both read standard input: give one of them")
-    places = [
-        simulating.read_place(scheme, text)
-        for scheme, text in (("socket", tcp), ("rfc2217", rfc2217))
-        if text is not None
-    ]
+    places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     with simulating.held(eeprom):
         simulated = simulating.Simulation(
             simulating.read_modules(model, signal, seed=seed, memory=eeprom),

@@ -4,17 +4,13 @@ Laws: what only some options need is imported when one of them is used.
 """
 
 import asyncio
-import logging
-import signal
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
+from contextlib import AsyncExitStack, contextmanager
 from functools import partial
 from importlib.util import find_spec
-from ipaddress import IPv6Address
 from pathlib import Path
-from typing import IO, Any, cast
 
 from attrs import frozen
 
@@ -22,7 +18,8 @@ from i7000.cli.control import Control, follow_input, listening
 from i7000.cli.keys import Prompt, pressed
 from i7000.cli.module import read_module
 from i7000.cli.operating import module_commands
-from i7000.cli.outlet import Outlet, missed_words
+from i7000.cli.outlet import Outlet
+from i7000.cli.serving import Place, ended_by_signals, handlers_kept, never_held_up, open_places, show_answer
 from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
 from i7000.cli.traffic import change_line, lines
@@ -34,20 +31,9 @@ from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.simulator import Simulated, Simulator
-from i7000.simulator.tcp import LOOPBACK, Connection, listen
 from i7000_cli import FAILED
 
-__all__ = ["Place", "Simulation", "held", "read_modules", "read_place", "run"]
-
-
-@frozen
-class Place:
-    """A place on the network to listen at."""
-
-    scheme: str
-    """``socket`` or ``rfc2217``, as in the URLs of pyserial."""
-    host: str
-    port: int
+__all__ = ["Simulation", "held", "read_modules", "run"]
 
 
 @frozen
@@ -118,37 +104,12 @@ def _kinds(eeproms: Sequence[Eeprom]) -> str:
     return " ".join(map(_kind, eeproms))
 
 
-def read_place(scheme: str, text: str) -> Place:
-    """Read ``[HOST:]PORT``; without a host, only this machine can connect.
-
-    Errors: `UsageError`.
-
-    >>> read_place("socket", "5020"), read_place("rfc2217", "[::1]:0").host
-    (Place(scheme='socket', host='127.0.0.1', port=5020), '::1')
-    """
-    host, _, port = text.rpartition(":")
-    if not (port.isascii() and port.isdecimal() and len(port) <= 5 and int(port) <= 0xFFFF):
-        raise UsageError(f"{text!r} is not [HOST:]PORT: a port is 0..65535; 0 takes any free one")
-    return Place(scheme, _host(host, text) or LOOPBACK, int(port))
-
-
-def _host(host: str, text: str) -> str:
-    """Return a host without the brackets that an address of IPv6 has, which has colons."""
-    if host.startswith("[") and host.endswith("]"):
-        with suppress(ValueError):
-            IPv6Address(host[1:-1])
-            return host[1:-1]
-    elif not set(host) & set("[]:"):
-        return host
-    raise UsageError(f"{text!r} is not [HOST:]PORT: write an IPv6 address in brackets, such as [::1]:5020")
-
-
 def run(simulated: Simulation, printer: Printer) -> int:
     """Simulate until Ctrl-C or another signal; the ports are printed first.
 
     Errors: `OSError` if there is no such place; that or `UsageError` if the memory cannot be written.
     """
-    with _handlers_kept(), _never_held_up(printer, simulated.view) as out:
+    with handlers_kept(), never_held_up(printer, simulated.view) as out:
         try:
             asyncio.run(_run(simulated, printer, out))
         except I7000Error as error:
@@ -156,47 +117,9 @@ def run(simulated: Simulation, printer: Printer) -> int:
     return FAILED if out.failed else 0
 
 
-_ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-"""The signals that end a simulation: Ctrl-C, and those that come when it is terminated or its terminal hangs up."""
-
-
-@contextmanager
-def _handlers_kept() -> Iterator[None]:
-    """Put back what handled the signals before."""
-    handlers = {number: signal.getsignal(number) for number in _ENDING}
-    try:
-        yield
-    finally:
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-
-
-@contextmanager
-def _never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
-    """Print so that the simulation goes on, and ends, even if nobody reads what is printed; the value is the output."""
-    limits: dict[str, Any] = {"most": 0, "counted": False} if view == "live" else {}
-    out = Outlet(printer.out.file, report=partial(_report, printer), **limits)
-    err = Outlet(printer.err.file)
-    complaints = logging.StreamHandler(err)
-    logging.getLogger("asyncio").addHandler(complaints)
-    with redirect_stdout(cast(IO[str], out)), redirect_stderr(cast(IO[str], err)):
-        try:
-            yield out
-        finally:
-            missed = out.close()
-            if missed and view == "lines":
-                printer.error(missed_words(missed))
-            logging.getLogger("asyncio").removeHandler(complaints)
-            err.close()
-
-
-def _report(printer: Printer, error: OSError) -> None:
-    printer.error(f"the output cannot be written: {error.strerror}")
-
-
 async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
-    with _ended_by_signals(simulator):
+    with ended_by_signals(simulator):
         if simulated.memory is not None:
             from i7000.simulator.memory import save  # noqa: PLC0415
 
@@ -206,7 +129,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
             name = protocol.name.replace("_", " ")
             printer.error(f"several modules have address {address:02X} and speak {name}: their responses collide")
         async with AsyncExitStack() as opened:
-            places = await _open(simulated, simulator, opened)
+            places = await open_places(simulated.places, simulator, opened, pseudo_terminal=simulated.pty)
             for place in places:
                 printer.out.out(place, highlight=False)
             printer.out.file.flush()
@@ -217,7 +140,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
             elif simulated.view == "live":
                 _show_live(simulator, control, printer, places, opened)
             if simulated.control == "-":
-                follow_input(control, partial(_show_answer, printer))
+                follow_input(control, partial(show_answer, printer))
             elif simulated.control is not None:
                 await opened.enter_async_context(listening(control, Path(simulated.control)))
             await simulator.run()
@@ -243,56 +166,10 @@ def _has_keys() -> bool:
     return sys.stdin is not None and sys.stdin.isatty() and find_spec("termios") is not None
 
 
-def _show_answer(printer: Printer, answer: str) -> None:
-    printer.out.out(answer, highlight=False)
-    printer.out.file.flush()
-
-
-@contextmanager
-def _ended_by_signals(simulator: Simulator) -> Iterator[None]:
-    """End the simulation at a signal; once it has ended, ignore others, so that what was shown can still be written."""
-    loop = asyncio.get_running_loop()
-    hung_up = getattr(signal, "SIGHUP", None)
-    numbers = [it for it in _ENDING if it != hung_up or signal.getsignal(it) is not signal.SIG_IGN]  # as nohup has it
-    try:
-        for number in numbers:
-            loop.add_signal_handler(number, simulator.end)
-    except NotImplementedError:  # pragma: no cover - Windows: Ctrl-C is an exception there; tested in its own process
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        numbers = []
-    try:
-        yield
-    finally:
-        for number in numbers:
-            loop.remove_signal_handler(number)
-            signal.signal(number, signal.SIG_IGN)
-
-
 def _shared(modules: Iterable[State]) -> list[tuple[int, Protocol]]:
     """Return the addresses that several modules of one protocol have."""
     counted = Counter((module.ram.address, module.ram.protocol) for module in modules)
     return [key for key, count in counted.items() if count > 1]
-
-
-async def _open(simulated: Simulation, simulator: Simulator, opened: AsyncExitStack) -> list[str]:
-    """Open all ports of the bus, and return their names."""
-    found = []
-    if simulated.pty:
-        try:
-            from i7000.simulator.pseudo_terminal import open_pty  # noqa: PLC0415 - POSIX only
-        except ModuleNotFoundError:
-            raise UsageError("this system has no pseudo-terminals: give --tcp or --rfc2217") from None
-
-        found.append(await opened.enter_async_context(open_pty(simulator)))
-    for place in simulated.places:
-        connection = Connection
-        if place.scheme == "rfc2217":
-            from i7000.simulator.rfc2217 import Rfc2217Connection  # noqa: PLC0415
-
-            connection = Rfc2217Connection
-        listening = listen(simulator, place.host, place.port, connection=connection)
-        found.append(f"{place.scheme}://{await opened.enter_async_context(listening)}")
-    return found
 
 
 def _show_change(printer: Printer, out: Outlet, change: Change) -> None:

@@ -1,6 +1,6 @@
 """A whole module: the effects of time and of frames (manual 2, 3, A.2)."""
 
-from i7000.arguments import as_bytes, check_clock, check_type
+from i7000.arguments import LARGEST_FLOAT, as_bytes, check_clock, check_type
 from i7000.device import dcon, modbus
 from i7000.device.measurement import words
 from i7000.device.signals import Signals
@@ -31,24 +31,20 @@ def step(state: State, frame: bytes, signals: Signals, now: float) -> tuple[Stat
     if frame.__class__ is not bytes:
         frame = as_bytes("frame", frame)
     state = advance(state, signals, now)
-    if not is_for(state, frame) and not _is_for_all(state, frame):
+    address = state.ram.address
+    if state.ram.protocol is Protocol.MODBUS_RTU:
+        if frame[:1] not in (_BYTES[address], b"\0"):
+            return state, None
+        return modbus.step(state, frame, signals, now)
+    if frame[1:3] not in (_DIGITS[address], b"**"):
         return state, None
-    speak = modbus.step if _speaks_modbus(state) else dcon.step
-    return speak(state, frame, signals, now)
+    return dcon.step(state, frame, signals, now)
 
 
 def is_for(state: State, frame: bytes) -> bool:
     """Return whether a frame has the address of this module."""
     address = state.ram.address
-    return frame[:1] == _BYTES[address] if _speaks_modbus(state) else frame[1:3] == _DIGITS[address]
-
-
-def _is_for_all(state: State, frame: bytes) -> bool:
-    return frame[:1] == b"\0" if _speaks_modbus(state) else frame[1:3] == b"**"
-
-
-def _speaks_modbus(state: State) -> bool:
-    return state.ram.protocol is Protocol.MODBUS_RTU
+    return frame[:1] == _BYTES[address] if state.ram.protocol is Protocol.MODBUS_RTU else frame[1:3] == _DIGITS[address]
 
 
 _BYTES = tuple([bytes((address,)) for address in range(0x100)])
@@ -67,7 +63,8 @@ def advance(state: State, signals: Signals, now: float) -> State:
     if signals.__class__ is not Signals:
         check_type("signals", signals, Signals)
     if now != state.clock:
-        check_clock(now, state.clock)
+        if now.__class__ is not float or not state.clock < now <= LARGEST_FLOAT:
+            check_clock(now, state.clock)
         state = at(state, now)
     eeprom = state.eeprom
     timeout = eeprom.host_watchdog_timeout

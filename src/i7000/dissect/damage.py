@@ -2,7 +2,8 @@
 
 import re
 
-from i7000.dissect.spelling import DIRECTIONS, hex_runs, wire_of, without_numbers
+from i7000.dissect.in_bytes import begins_like_a_frame
+from i7000.dissect.spelling import DIRECTIONS, decimal_runs, hex_runs, loose_hex_runs, wire_of, without_numbers
 from i7000.settings import Protocol
 
 __all__ = ["in_place_of_a_frame", "is_direction"]
@@ -15,6 +16,10 @@ _HEADING = bytes(range(256))
 """What stands above the columns of a dump."""
 _FEWEST = 2
 _FEWEST_IN_A_WORD = 5
+_FEWEST_NUMBERS = 4
+_LETTER = re.compile("[A-Fa-f]")
+_NOT_HEX = re.compile(r"\d{3}|[ ,\[({]-\d")
+"""What shows that numbers are in hex without leading zeros, or in decimal; of those without, it is unknown."""
 """The fewest bytes that are not a plain number, if the protocol is unknown."""
 
 
@@ -43,6 +48,12 @@ def in_place_of_a_frame(text: str, protocol: Protocol | None) -> bytes | None:
             heading = wire == _HEADING[: len(wire)]
             if (protocol is not None or (many and not heading)) and is_direction(beside):
                 return wire
+        for runs, shown_by in ((loose_hex_runs, _LETTER), (decimal_runs, _NOT_HEX)):
+            for run in runs(crossed):
+                start, end = run[0].start, run[-1].end
+                enough = len(run) >= _FEWEST_NUMBERS and begins_like_a_frame(run)
+                if enough and shown_by.search(crossed, start, end) and is_direction(crossed[:start] + crossed[end:]):
+                    return wire_of(run)
     if protocol is Protocol.DCON:
         first = _LEADING.search(crossed)
         if first and is_direction(crossed[: first.start()]):

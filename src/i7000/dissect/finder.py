@@ -100,23 +100,58 @@ def read_line(text: str) -> Line:
             candidates.append(found)
     damaged = [found for found in candidates if found.kind is Kind.DAMAGED and _is_free(taken, found)]
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
-    if not good:
+    counter = next((found for found in good if _may_be_a_counter(text, found)), None)
+    if not good or good == [counter]:
         crossed = _without_hex(crossed, runs)
         known = set(wires)
         for numbers in (loose_hex_runs, decimal_runs):
             fresh = (run for run in numbers(crossed) if wire_of(run) not in known)
             good += [found for run in fresh for found in good_in_run(text, run)]
+    good = [found for found in good if found is not counter] or good
     longest = [] if good else max(runs, key=len, default=[])
     part, start = wire_of(longest), longest[0].start if longest else 0
-    if not good and not damaged:
-        return Line((), part, start)
+    damaged = [found for found in damaged if not _is_number(text, found, beside=good)]
+    return Line(_chosen(text, (*_longest_first(good), *_longest_first(damaged))), part, start)
+
+
+def _chosen(text: str, candidates: tuple[Found, ...]) -> tuple[Found, ...]:
+    """Choose those that no other one before them overlaps."""
+    if not candidates:
+        return ()
     taken = bytearray(len(text))
     chosen = []
-    for found in (*_longest_first(good), *_longest_first(damaged)):
+    for found in candidates:
         if _is_free(taken, found):
             _take(taken, found)
             chosen.append(found)
-    return Line(tuple(sorted(chosen, key=attrgetter("start"))), part, start)
+    return tuple(sorted(chosen, key=attrgetter("start")))
+
+
+_DECIMAL_AFTER = pattern(r"(?:[ ,;\-]{1,2})\d{3}(?![0-9A-Za-z])")
+_DECIMAL_BEFORE = pattern(r"(?<![0-9A-Za-z])\d{3}[ ,;\-]{1,2}$")
+_DIGITS_APART = pattern(r"\d\d(?:[ ,;\-]{1,2}\d\d)*")
+
+
+def _is_number(text: str, found: Found, beside: list[Found]) -> bool:
+    """Return whether bytes in hex are a number beside a good frame, or a part of numbers in decimal.
+
+    Special: what shows numbers in decimal is one of three digits among them: ``1-104-10-16``.
+    """
+    if beside and text[found.start : found.end].isdecimal():
+        return len(found.wire) > 1
+    if not _DIGITS_APART.fullmatch(text, found.start, found.end):
+        return False
+    before = text[max(0, found.start - len("z123, ")) : found.start]
+    return bool(_DECIMAL_AFTER.match(text, found.end) or _DECIMAL_BEFORE.search(before))
+
+
+_COUNTER = pattern(r"\s*#\d\d\s+(?![-=>|:,;!?]|<[-=]|[A-Za-z]*:)")
+
+
+def _may_be_a_counter(text: str, found: Found) -> bool:
+    """Return whether a command is the number of the line: nothing stands before it, and no response behind it."""
+    counter = _COUNTER.match(text)
+    return counter is not None and counter.start() <= found.start < found.end <= counter.end()
 
 
 _LETTER = pattern("[A-Fa-f]")
@@ -133,7 +168,7 @@ def _without_hex(text: str, runs: list[Run]) -> str:
     at = 0
     for run in runs:
         start, end = run[0].start, run[-1].end
-        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, start, end):
+        if len(run) >= _SHORTEST_HEX and _LETTER.search(text, run[1].start, end):
             kept += (text[at:start], "z" * (end - start))
             at = end
     return "".join((*kept, text[at:])) if kept else text

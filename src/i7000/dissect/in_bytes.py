@@ -11,8 +11,9 @@ from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped
 from i7000.dissect.spelling import Byte, Run, wire_of
 from i7000.errors import Noise
+from i7000.modbus.request import LAST_ADDRESS
 
-__all__ = ["SHORTEST_RUN", "frames_of", "good_in_run", "in_run"]
+__all__ = ["SHORTEST_RUN", "begins_like_a_frame", "frames_of", "good_in_run", "in_run"]
 
 SHORTEST_RUN = len("#01")
 """Bytes of a run that can hold a frame, or be the column of hex beside one."""
@@ -189,9 +190,14 @@ def _functions() -> frozenset[int]:
     return frozenset(request.function | bit for request in modbus.REQUESTS for bit in (0, 0x80))
 
 
+def begins_like_a_frame(run: Run) -> bool:
+    """Return whether a run begins with the address of a module and a function code."""
+    return 0 < run[0].value <= LAST_ADDRESS and run[1].value in _functions()
+
+
 def _may_be_a_frame(run: Run) -> bool:
     if len(run) >= _SHORTEST_COUNTING and wire_of(run) == bytes(range(min(len(run), 256))):
         return False
     if max(byte.word for byte in run) == 1:
         return len(run) >= _SHORTEST_DAMAGED
-    return len(run) >= _SHORTEST_DAMAGED_WORD and 0 < run[0].value < 0xF8 and run[1].value in _functions()
+    return len(run) >= _SHORTEST_DAMAGED_WORD and begins_like_a_frame(run)

@@ -21,10 +21,12 @@ _ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
 _BARE = len("$01")
 _NEAR = 40
 """Characters beside something that show whether it stands in a sentence."""
-_INTRODUCED = pattern(rf"(?i)(?:^|[\"'`(\[{{<>|=:;,\t&]|\d|(?<![^\W_])(?:z+|(?:{DIRECTIONS})[\W_]*))[ ]*$")
+_INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|(?<![^\W_])(?:z+|(?:{DIRECTIONS})[\W_]*))[ ]*$")
 """What stands before a frame: nothing, a time or a number, a word for the direction, or a sign."""
-_MEASURED = pattern(rf"[~@#$]\d+(?:\.\d+)?\s?(?:{UNITS})\b")
-"""``~100 ms``."""
+_MEASURED = pattern(rf"[~@#$]\d+(?:(?:\.\d+)?\s?(?:{UNITS})\b|:\d\d(?!\d))")
+"""``~100 ms``, ``@12:00``."""
+_NO_TEXT = pattern("[\udc80-\udcff]")
+"""A byte that is no UTF-8, as `surrogateescape` decodes it: sentences have none."""
 _NUMBERED = pattern(r">[+-]\d")
 
 
@@ -75,8 +77,10 @@ def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
     ends = list(_ends(characters, start, None if written is None else written.end()))
     shaped = (end for end in ends if is_shaped(characters[start:end]))
     end = next(shaped, None)
+    if written is None and _MEASURED.match(characters, start):
+        return None, start
     if end is not None:
-        return (None if written is None and _MEASURED.match(characters, start) else Kind.DCON), end
+        return Kind.DCON, end
     return (Kind.DAMAGED if written is not None or _is_apart(characters, start, ends[0]) else None), ends[0]
 
 
@@ -85,7 +89,8 @@ def _is_apart(characters: str, start: int, end: int) -> bool:
     before = without_numbers(characters[max(0, start - _NEAR) : start])
     if not _INTRODUCED.search(before):
         return False
-    return end - start > _BARE or not characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
+    after = characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
+    return end - start > _BARE or not after or _NO_TEXT.match(after) is not None
 
 
 def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:

@@ -126,7 +126,7 @@ def _valued(profile: Profile | None, place: _Place, sent: tuple[int, ...], *, wr
     else:
         channels = None if channel is None else range(channel, channel + 1)
         try:
-            value = _map(profile).decode(row.name, sent, channels=channels)
+            value: Any = _map(profile).decode(row.name, sent, channels=channels)
         except DecodeError:
             yield Item(number, name, channel, sent[0], None, f"{_raw(row, sent[0])}, not defined")
             return

@@ -60,8 +60,8 @@ class _Part(NamedTuple):
     text: str
     found: tuple[Found, ...]
     wire: bytes
-    before: str
-    """The words before the bytes, if they are others than those for a direction."""
+    start: int
+    """Where the bytes begin."""
 
 
 def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -> Iterator[Piece]:
@@ -91,11 +91,11 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
         found: tuple[Found, ...] = ()
         if plain is None:
             found, wire, start = read_line(clean)
-            part = _Part(number, text, found, wire, _words(clean, start))
-            if parts and wire and not _goes_on(parts[-1], part):
-                yield from map(marked, _apart(parts, protocol))
-                parts = []
             if wire and (parts or _begins(wire)):
+                part = _Part(number, text, found, wire, start)
+                if parts and not _goes_on(parts[-1], part):
+                    yield from map(marked, _apart(parts, protocol))
+                    parts = []
                 parts.append(part)
                 yield from map(marked, _complete(parts, protocol))
                 continue
@@ -149,14 +149,17 @@ def _complete(parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
         parts.clear()
 
 
-def _words(text: str, start: int) -> str:
-    is_known = is_direction(without_numbers(text)[:start])
-    return "" if is_known else " ".join(_WORD.findall(text[:start]))
-
-
 def _goes_on(part: _Part, other: _Part) -> bool:
     """Return whether the frame that begins in a line can go on in the next: not where a few bytes are but a number."""
-    return part.before == other.before or min(len(it.wire) for it in (part, other) if it.before) >= _FEWEST_BESIDE_WORDS
+    words = _words(part), _words(other)
+    fewest = min((len(it.wire) for it, before in zip((part, other), words, strict=True) if before), default=0)
+    return words[0] == words[1] or fewest >= _FEWEST_BESIDE_WORDS
+
+
+def _words(part: _Part) -> str:
+    """Return the words before the bytes of a part; nothing if they are those for a direction."""
+    before = without_numbers(part.text)[: part.start]
+    return "" if is_direction(before) else " ".join(word for word in _WORD.findall(before) if word.strip("z"))
 
 
 def _begins(wire: bytes) -> bool:

@@ -1,47 +1,48 @@
-"""The arguments and the output of the example drivers; the same for both."""
+"""The arguments and the output of the example programs; the same for both."""
 
 import sys
 from argparse import ArgumentParser
-from collections.abc import Sequence
-from typing import TypeVar
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
-import serial
-from attrs import evolve, frozen
+from attrs import evolve, field, frozen
 
 from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Reading, TypeCode, dcon, modbus
-from i7000.host import Answered, Bus, Outcome, Query, Rejected, Response
+from i7000.errors import InvalidValueError
+from i7000.host import Answered, Query, Rejected
+from i7000.host.procedures import Result
+from i7000.link import LinkError
 from i7000_cli import program
 
-__all__ = ["R", "Task", "open_port", "program", "read_task"]
+__all__ = ["Task", "failures_said", "program", "read_task"]
 
-R = TypeVar("R", bound=Response)
-"""The response of a command of either protocol."""
 Inputs = dcon.AnalogInputs | modbus.InputRegisters
 """The response of the command of a task."""
 
 
 @frozen
 class Task:
-    """The task of an example driver: read the inputs of a module."""
+    """The task of an example program: read the inputs of a module."""
 
-    port: str
-    bus: Bus[Response]
+    target: str
+    line: LineSettings
     profile: Profile
     command: Query[Inputs]
+    echo: bool = field(kw_only=True)
 
-    def show(self, outcome: Outcome[Inputs], refused: Rejected | Noise | None) -> int:
-        """Print the outcome, and return the exit code of the program: 0 for a response.
+    def show(self, result: Result[Inputs]) -> int:
+        """Print the result, and return the exit code of the program: 0 for a response.
 
-        `refused` is the last rejected frame: it often explains a timeout.
+        Special: without a response, the last rejected frame is printed too: it often explains a timeout.
         """
-        if not isinstance(outcome, Answered):
-            print(outcome)  # noqa: T201 - what a program prints
-            if refused is not None:
+        if not isinstance(result.outcome, Answered):
+            print(result.outcome)  # noqa: T201 - what a program prints
+            for refused in [it for it in result.others if isinstance(it, Rejected | Noise)][-1:]:
                 reason = refused.reason if isinstance(refused, Rejected) else refused.fault.value
                 print(f"last rejected frame: {refused.wire!r}: {reason}")  # noqa: T201
             return 1
         try:
-            readings = self._readings(outcome.response)
+            readings = self._readings(result.outcome.response)
         except DecodeError as error:  # of another module than was told
             print(error)  # noqa: T201
             return 1
@@ -58,7 +59,7 @@ class Task:
 def read_task(arguments: Sequence[str] | None = None) -> Task:
     """Parse the arguments of the command line."""
     parser = ArgumentParser(description="Read the analog inputs of a module.")
-    parser.add_argument("port", help="the serial port, or any URL that pyserial supports")
+    parser.add_argument("target", help="a serial port, a URL of pyserial, sim:M-7019R,type=K or exec:COMMAND")
     parser.add_argument("--model", type=Model.find, required=True)
     parser.add_argument("--address", type=lambda text: int(text, 16), default=0x01, help="in hex; 01 unless given")
     types, rates = TypeCode.__members__, {str(rate.bits_per_second): rate for rate in BaudRate}
@@ -74,17 +75,14 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
     command: Query[Inputs] = dcon.ReadAnalogInputs(given.address)
     if given.modbus:
         command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
-    line = LineSettings(rates[given.baud])
-    return Task(given.port, Bus[Response](line, echo=given.echo), profile, command)
+    return Task(given.target, LineSettings(rates[given.baud]), profile, command, echo=given.echo)
 
 
-def open_port(task: Task) -> serial.Serial:
-    """Open the port with the settings of the line; if that fails, end the program with the reason."""
-    line = task.bus.line
-    rate = BaudRate(line.baud_rate).bits_per_second
-    form = line.character_format
+@contextmanager
+def failures_said() -> Iterator[None]:
+    """End the program with the reason if the target is invalid, or if its port cannot be opened or disappears."""
     try:
-        return serial.serial_for_url(task.port, rate, parity=form.parity, stopbits=form.stop_bits)
-    except (OSError, ValueError) as error:  # the latter for a URL that pyserial does not know
-        sys.stderr.write(f"{task.port}: {error}\n")
+        yield
+    except (InvalidValueError, LinkError) as error:
+        sys.stderr.write(f"{error}\n")
         raise SystemExit(2) from None

@@ -152,8 +152,8 @@ def _changed(bus: Bus[Any], **changes: Any) -> Bus[Any]:  # noqa: ANN401 - field
 def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) -> Bus[R]:
     r"""Open a request. Its bytes come later, as `Transmit` of `receive`.
 
-    Time: `next_deadline` of the result is `now`, or later: after a timeout, in a pause, and until the line was silent
-        for 3.5 characters.
+    Time: `next_deadline` of the result is 3.5 characters after `now`: so long, the line has to be silent. It is later
+        after a timeout and in a pause.
     Special: for a broadcast, only the checksum setting of `profile` is used.
     Errors: `EncodeError` if the module does not have the command; `InvalidValueError` for a time that is not finite;
         `StateError` if the previous request has no outcome yet, and for a time before the last call.
@@ -161,7 +161,7 @@ def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) ->
 
     >>> from i7000 import Model, dcon
     >>> bus = send(Bus[Response](), dcon.ReadConfiguration(0x01), Profile(Model.I_7018), 0.0)
-    >>> bus, events = receive(bus, b"", 0.0)
+    >>> bus, events = receive(bus, b"", next_deadline(bus))
     >>> events
     (Transmit(wire=b'$012\r'),)
     >>> receive(bus, b"!01050600\r", 0.1)[1][0].response.type_code
@@ -174,7 +174,7 @@ def send(bus: Bus[Response], command: Query[R], profile: Profile, now: float) ->
     if bus.pending:
         raise _still_open(bus.pending, now)
     exchange = prepare(command, profile)
-    due = max(now, bus.quiet_until, bus.heard_at + bus.silence)
+    due = max(bus.quiet_until, max(now, bus.heard_at) + bus.silence)
     pending = Pending(exchange, bus.policy.retries, due, due + _allowance(bus, exchange))
     return _changed(bus, pending=pending, clock=now)
 

@@ -3,18 +3,23 @@
 `Line` asks and runs procedures in a program without an event loop, `AsyncLine` in tasks of asyncio. `open_target` opens
 what a text names: a device, a URL of pyserial, ``sim:`` or ``exec:``. `VirtualPort` is a serial port with simulated
 modules in virtual time, for tests.
-Parts: `conversation` is what both lines do, without I/O; `port` has the blocking calls of a port; `process` is the port
-of ``exec:``; `observed` has what an observer hears.
+Parts: `conversation` is what both lines do, without I/O; `port` has the blocking calls of a port, `worker` makes them
+in a thread. `process` is the port of ``exec:``, `rfc2217` that of ``rfc2217:``. `observed` has what an observer hears.
+The names below are imported when they are first used, since asyncio and the simulator take time to import.
 """
 
-from i7000.link.async_line import AsyncLine
-from i7000.link.errors import LinkError
-from i7000.link.line import Line
-from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
-from i7000.link.port import Port
-from i7000.link.process import ProcessPort
-from i7000.link.target import TargetOptions, open_target
-from i7000.link.virtual import VirtualPort
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from i7000.link.async_line import AsyncLine
+    from i7000.link.errors import LinkError
+    from i7000.link.line import Line
+    from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
+    from i7000.link.port import Port
+    from i7000.link.process import ProcessPort
+    from i7000.link.target import TargetOptions, open_target
+    from i7000.link.virtual import VirtualPort
 
 __all__ = [
     "Abandoned",
@@ -33,3 +38,29 @@ __all__ = [
     "Written",
     "open_target",
 ]
+
+_PLACES = {
+    "async_line": ("AsyncLine",),
+    "errors": ("LinkError",),
+    "line": ("Line",),
+    "observed": ("Abandoned", "Asked", "Happened", "Observed", "Received", "Tuned", "Written"),
+    "port": ("Port",),
+    "process": ("ProcessPort",),
+    "target": ("TargetOptions", "open_target"),
+    "virtual": ("VirtualPort",),
+}
+_MODULES = {name: module for module, names in _PLACES.items() for name in names}
+
+
+def __getattr__(name: str) -> object:
+    """Import a public name when it is first used."""
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return sorted(__all__)

@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Self, TypeVar, Unpack
 
 from i7000.host import Bus, Outcome, Policy
-from i7000.host.procedures import Procedure, Tune
+from i7000.host.procedures import Procedure, Tune, Wait
 from i7000.link.conversation import Act, Acts, Conversation, Read, Write
 from i7000.link.errors import LinkError
 from i7000.link.observed import Observed
@@ -54,7 +54,7 @@ class AsyncLine:
         *,
         echo: bool = False,
         clock: Callable[[], float] | None = None,
-        observe: Callable[[Observed], None] | None = None,
+        observe: Callable[[Observed], object] | None = None,
     ) -> None:
         self.port = port
         bus = Bus[Response](line, policy, echo=echo)
@@ -75,7 +75,7 @@ class AsyncLine:
         policy: Policy = Policy(),  # noqa: B008 - frozen
         *,
         echo: bool = False,
-        observe: Callable[[Observed], None] | None = None,
+        observe: Callable[[Observed], object] | None = None,
         **options: Unpack[TargetOptions],
     ) -> Self:
         """Open what a text names, see `i7000.link.open_target`, without holding up the event loop.
@@ -90,7 +90,12 @@ class AsyncLine:
         except asyncio.CancelledError:
             future.add_done_callback(_close_unused)
             raise
-        return cls(future.result(), line, policy, echo=echo, observe=observe)
+        port = future.result()
+        try:
+            return cls(port, line, policy, echo=echo, observe=observe)
+        except BaseException:
+            close(port)
+            raise
 
     @property
     def line(self) -> LineSettings:
@@ -106,7 +111,7 @@ class AsyncLine:
         """Send a command or request when it is its turn, and return its outcome; `policy` is for this one."""
         return (await self._drive(self._conversation.ask(command, profile, policy))).outcome
 
-    async def run(self, procedure: Procedure[T], tell: Callable[[object], None] | None = None) -> T:
+    async def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None = None) -> T:
         """Carry out a procedure of `i7000.host.procedures`, and return its result; `tell` is called with what it tells.
 
         Special: line settings that a procedure changed stay, unless it did not get to its end.
@@ -119,7 +124,7 @@ class AsyncLine:
 
     async def wait(self, seconds: float) -> None:
         """Keep the line for so many seconds without a request; what arrives meanwhile is late."""
-        await self._drive(self._conversation.wait(seconds))
+        await self._drive(self._conversation.wait(Wait(seconds)))
 
     async def close(self) -> None:
         """Close the port."""

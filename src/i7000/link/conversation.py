@@ -53,7 +53,7 @@ class Conversation:
     """The state of a line, its clock and its observer."""
 
     def __init__(
-        self, bus: Bus[Response], clock: Callable[[], float], observe: Callable[[Observed], None] | None
+        self, bus: Bus[Response], clock: Callable[[], float], observe: Callable[[Observed], object] | None
     ) -> None:
         self.bus = bus
         self.clock = clock
@@ -100,9 +100,9 @@ class Conversation:
             self.bus = evolve(bus, policy=before)
         return Result(outcome, tuple(others))
 
-    def wait(self, seconds: float) -> Acts[None]:
-        """Wait for so many seconds without a request; what arrives meanwhile is heard."""
-        end = self.clock() + seconds
+    def wait(self, step: Wait) -> Acts[None]:
+        """Wait without a request; what arrives meanwhile is heard."""
+        end = self.clock() + step.seconds
         while self.clock() < end:
             heard = yield Read(end)
             now = self._heard(heard)
@@ -117,7 +117,7 @@ class Conversation:
             self._show(Tuned(self.clock(), step.line))
             yield step
 
-    def run(self, procedure: Procedure[T], tell: Callable[[object], None] | None) -> Acts[T]:
+    def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None) -> Acts[T]:
         """Carry out the steps of a procedure, and return its result.
 
         Special: a procedure that does not get to its end leaves the line settings as they were before it.
@@ -137,7 +137,7 @@ class Conversation:
                 elif isinstance(step, Tune):
                     yield from self.tune(step)
                 elif isinstance(step, Wait):
-                    yield from self.wait(step.seconds)
+                    yield from self.wait(step)
                 elif tell:
                     tell(step.value)
         except BaseException:

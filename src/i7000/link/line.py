@@ -1,11 +1,13 @@
 """A line for a program without an event loop: requests and procedures on a port, one after the other."""
 
 from collections.abc import Callable
+from threading import Lock
 from types import TracebackType
 from typing import Self, TypeVar, Unpack
 
+from i7000.errors import StateError
 from i7000.host import Bus, Outcome, Policy
-from i7000.host.procedures import Procedure, Tune
+from i7000.host.procedures import Procedure, Tune, Wait
 from i7000.link.conversation import Act, Acts, Conversation, Read, Write
 from i7000.link.errors import LinkError
 from i7000.link.observed import Observed
@@ -34,7 +36,7 @@ class Line:
         Ctrl-C and other exceptions during a request end it without an outcome, and leave the line usable. A lost port
         closes the line. A line is for one thread at a time.
     Errors: `LinkError` (an `OSError`) for a port that is lost or closed, once and for all later calls; `EncodeError`
-        for a command that the module does not have; `StateError` for a request while another thread's is open.
+        for a command that the module does not have; `StateError` for a call during another one.
 
     >>> from i7000 import Model, Unit, dcon
     >>> from i7000.device import Signals, factory, power_on
@@ -53,11 +55,12 @@ class Line:
         *,
         echo: bool = False,
         clock: Callable[[], float] | None = None,
-        observe: Callable[[Observed], None] | None = None,
+        observe: Callable[[Observed], object] | None = None,
     ) -> None:
         self.port = port
         bus = Bus[Response](line, policy, echo=echo)
         self._conversation = Conversation(bus, clock or clock_of(port), observe)
+        self._in_use = Lock()
         self._failure = ""
         """Why the line is closed."""
         tune(port, line)
@@ -70,14 +73,19 @@ class Line:
         policy: Policy = Policy(),  # noqa: B008 - frozen
         *,
         echo: bool = False,
-        observe: Callable[[Observed], None] | None = None,
+        observe: Callable[[Observed], object] | None = None,
         **options: Unpack[TargetOptions],
     ) -> Self:
         """Open what a text names, see `i7000.link.open_target`.
 
         Errors: `LinkError`, `InvalidValueError`.
         """
-        return cls(open_target(target, line, **options), line, policy, echo=echo, observe=observe)
+        port = open_target(target, line, **options)
+        try:
+            return cls(port, line, policy, echo=echo, observe=observe)
+        except BaseException:
+            close(port)
+            raise
 
     @property
     def line(self) -> LineSettings:
@@ -90,10 +98,13 @@ class Line:
         return self._conversation.bus.policy
 
     def ask(self, command: Query[R], profile: Profile, policy: Policy | None = None) -> Outcome[R]:
-        """Send a command or request, and return its outcome; `policy` is for this one."""
+        """Send a command or request, and return its outcome; `policy` is for this one.
+
+        Special: ``run(i7000.host.procedures.ask(command, profile))`` returns the other traffic too.
+        """
         return self._drive(self._conversation.ask(command, profile, policy)).outcome
 
-    def run(self, procedure: Procedure[T], tell: Callable[[object], None] | None = None) -> T:
+    def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None = None) -> T:
         """Carry out a procedure of `i7000.host.procedures`, and return its result; `tell` is called with what it tells.
 
         Special: line settings that a procedure changed stay, unless it did not get to its end.
@@ -106,7 +117,7 @@ class Line:
 
     def wait(self, seconds: float) -> None:
         """Wait for so many seconds without a request; what arrives meanwhile is late."""
-        self._drive(self._conversation.wait(seconds))
+        self._drive(self._conversation.wait(Wait(seconds)))
 
     def close(self) -> None:
         """Close the port."""
@@ -121,6 +132,8 @@ class Line:
     def _drive(self, acts: Acts[T]) -> T:
         if self._failure:
             raise LinkError(self._failure)
+        if not self._in_use.acquire(blocking=False):
+            raise StateError("the line is in use, by another thread or by the caller: wait until its request has ended")
         acts = self._conversation.start(acts)
         try:
             act = next(acts)
@@ -134,6 +147,7 @@ class Line:
             raise
         finally:
             acts.close()
+            self._in_use.release()
 
     def _do(self, act: Act) -> bytes:
         if isinstance(act, Read):

@@ -6,14 +6,16 @@ Laws: whatever a port raises comes out as one `LinkError`. pyserial raises many 
 from collections.abc import Callable
 from contextlib import suppress
 from time import monotonic
-from typing import Protocol
+from typing import Any, Protocol
 
-from i7000.device import Uart
-from i7000.errors import I7000Error
+from i7000.errors import I7000Error, InvalidValueError
 from i7000.link.errors import LinkError
-from i7000.settings import LineSettings
+from i7000.settings import BaudRate, LineSettings
 
-__all__ = ["Port", "clock_of", "close", "named", "read", "tune", "write"]
+__all__ = ["Port", "clock_of", "close", "named", "read", "settings_of", "tune", "write"]
+
+_LONGEST = 3600.0
+"""The longest time in seconds of one read: systems do not take any time."""
 
 
 class Port(Protocol):
@@ -49,11 +51,26 @@ def clock_of(port: Port) -> Callable[[], float]:
     return clock
 
 
+def settings_of(line: LineSettings) -> dict[str, Any]:
+    """Return the settings of a port of pyserial.
+
+    Errors: `InvalidValueError` for an undefined baud rate.
+
+    >>> settings_of(LineSettings())
+    {'baudrate': 9600, 'parity': 'N', 'stopbits': 1}
+    """
+    if not isinstance(line.baud_rate, BaudRate):
+        raise InvalidValueError("baud_rate", f"{line.baud_rate:02X}", "03..0A", "1.11")
+    form = line.character_format
+    return {"baudrate": line.baud_rate.bits_per_second, "parity": form.parity, "stopbits": form.stop_bits}
+
+
 def read(port: Port, seconds: float) -> bytes:
-    """Return all bytes that a port has, as soon as there are any; none after so many seconds.
+    """Return all bytes that a port has, as soon as there are any; none after so many seconds, or after an hour.
 
     Errors: `LinkError`.
     """
+    seconds = min(seconds, _LONGEST)
     try:
         if port.timeout != seconds:
             port.timeout = seconds
@@ -83,16 +100,13 @@ def tune(port: Port, line: LineSettings) -> None:
 
     Errors: `LinkError`.
     """
-    uart = Uart.of(line)
+    settings = settings_of(line)
     try:
-        if port.baudrate != uart.rate:
-            port.baudrate = uart.rate
-        if port.parity != uart.parity:
-            port.parity = uart.parity
-        if port.stopbits != uart.stop_bits:
-            port.stopbits = uart.stop_bits
+        for name, value in settings.items():
+            if getattr(port, name) != value:
+                setattr(port, name, value)
     except Exception as error:
-        raise _lost(port, error, f"cannot be set to {uart.rate} {line.character_format.name}") from error
+        raise _lost(port, error, f"cannot be set to {settings['baudrate']} {line.character_format.name}") from error
 
 
 def close(port: Port) -> None:

@@ -6,31 +6,28 @@
 * ``sim:M-7019R@B3.7,type=K+M-7017`` is simulated modules in virtual time, written as for ``i7000 simulate --model``.
 * ``exec:COMMAND`` is a process with the bytes of the line on its standard input and output, in real time.
 
-Laws: a target that cannot be opened raises an error of one line that names it and what is possible.
+Laws: a target that cannot be opened raises an error of one line that names it and what is possible. What
+only some targets need is imported when one of them is opened.
 """
 
 import re
 import shlex
 from collections.abc import Iterable
-from typing import Any, TypedDict, Unpack, cast
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack, cast
+from urllib.parse import urlsplit
 
 import serial
-from serial import rfc2217
-from serial.rs485 import RS485Settings
-from serial.tools.list_ports import comports
 
-from i7000.cli.module import read_module
-from i7000.cli.words import UsageError
-from i7000.device import Signals, Uart
 from i7000.errors import InvalidValueError
 from i7000.link.errors import LinkError
-from i7000.link.port import Port
-from i7000.link.process import ProcessPort
-from i7000.link.virtual import VirtualPort
+from i7000.link.port import Port, settings_of
 from i7000.settings import LineSettings
-from i7000.simulator.faults import Faults
-from i7000.simulator.simulator import Simulated
-from i7000.simulator.sources import Sources, default_sources
+
+if TYPE_CHECKING:
+    from serial.rs485 import RS485Settings
+
+    from i7000.device import Signals
+    from i7000.simulator import Faults, Sources
 
 __all__ = ["FORMS", "TargetOptions", "open_target"]
 
@@ -49,13 +46,13 @@ class TargetOptions(TypedDict, total=False):
 
     seed: int
     """For ``sim:``: the random seed of faults."""
-    faults: Faults
+    faults: "Faults"
     """For ``sim:``: the faults of the line."""
-    signals: Iterable[Signals | Sources]
+    signals: "Iterable[Signals | Sources]"
     """For ``sim:``: the signals at the inputs of each module."""
     init_switch: bool
     """For ``sim:`` and ``exec:``: power the modules on with the INIT switch set."""
-    rs485: RS485Settings
+    rs485: "RS485Settings"
     """For a serial port: RTS sets the direction of an RS-485 transceiver, if the driver of the port can do that."""
 
 
@@ -103,11 +100,16 @@ def open_target(
     return _serial(text, line, options.get("rs485"), url=kind == "URL")
 
 
-def _simulated(target: str, text: str, line: LineSettings, options: TargetOptions) -> VirtualPort:
+def _simulated(target: str, text: str, line: LineSettings, options: TargetOptions) -> Port:
+    from i7000.cli.module import read_module  # noqa: PLC0415
+    from i7000.cli.words import UsageError  # noqa: PLC0415
+    from i7000.link.virtual import VirtualPort  # noqa: PLC0415
+    from i7000.simulator import Simulated, default_sources  # noqa: PLC0415
+
     modules = []
     for address, written in enumerate(_NEXT_MODULE.split(text), 1):
         try:
-            described = read_module(written, address)
+            described = read_module(written.strip(), address, "module")
         except UsageError as error:
             raise InvalidValueError("target", target, str(error), "") from None
         switch = options.get("init_switch", False) or described.init_switch
@@ -117,7 +119,9 @@ def _simulated(target: str, text: str, line: LineSettings, options: TargetOption
     return port
 
 
-def _process(target: str, text: str, options: TargetOptions) -> ProcessPort:
+def _process(target: str, text: str, options: TargetOptions) -> Port:
+    from i7000.link.process import ProcessPort  # noqa: PLC0415
+
     try:
         command = shlex.split(text)
     except ValueError as error:
@@ -127,25 +131,17 @@ def _process(target: str, text: str, options: TargetOptions) -> ProcessPort:
     return ProcessPort(command, init_switch=options.get("init_switch", False))
 
 
-class _Rfc2217Port(rfc2217.Serial):
-    """A port of RFC 2217 that does not negotiate all settings again when only its timeout changes."""
-
-    _negotiated: tuple[object, ...] = ()
-
-    def _reconfigure_port(self) -> None:
-        settings = (self.baudrate, self.bytesize, self.parity, self.stopbits, self.xonxoff, self.rtscts)
-        if settings != self._negotiated:
-            super()._reconfigure_port()  # type: ignore[misc] # not in the stubs
-            self._negotiated = settings
-
-
-def _serial(target: str, line: LineSettings, rs485: RS485Settings | None, *, url: bool) -> Port:
+def _serial(target: str, line: LineSettings, rs485: "RS485Settings | None", *, url: bool) -> Port:
     """Open a port of pyserial."""
-    uart = Uart.of(line)
+    settings = settings_of(line)
+    if url and not _is_complete(target):
+        raise InvalidValueError("target", target, FORMS, "")
     try:
-        port = _unopened(target, baudrate=uart.rate, parity=uart.parity, stopbits=uart.stop_bits, exclusive=True)
+        port = _unopened(target, exclusive=True, **settings)
     except ValueError:
         raise InvalidValueError("target", target, FORMS, "") from None
+    except OSError as error:
+        raise LinkError(f"{target}: {error}") from None
     try:
         port.open()
         if rs485:
@@ -156,9 +152,20 @@ def _serial(target: str, line: LineSettings, rs485: RS485Settings | None, *, url
     return port
 
 
+def _is_complete(target: str) -> bool:
+    """Return whether a URL of the network names a host and a port."""
+    try:
+        url = urlsplit(target)
+        return url.scheme not in ("socket", "rfc2217") or (bool(url.hostname) and url.port is not None)
+    except ValueError:
+        return False
+
+
 def _unopened(target: str, **settings: Any) -> serial.Serial:  # noqa: ANN401 - of pyserial
     if target.lower().startswith("rfc2217:"):
-        port: Any = _Rfc2217Port(**settings)
+        from i7000.link.rfc2217 import Rfc2217Port  # noqa: PLC0415
+
+        port: Any = Rfc2217Port(**settings)
         port.port = target
         return cast(serial.Serial, port)  # it has the same methods
     return serial.serial_for_url(target, do_not_open=True, write_timeout=_WRITE_TIMEOUT, **settings)
@@ -175,6 +182,8 @@ def _reason(error: BaseException) -> str:
 
 def _possible() -> str:
     """Return the end of a message with the serial ports of this machine."""
+    from serial.tools.list_ports import comports  # noqa: PLC0415
+
     ports = sorted(port.device for port in comports())
     more = ", ..." if len(ports) > _MOST_LISTED else ""
     if not ports:

@@ -6,14 +6,14 @@ counts are decoded, but not written.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import Any, overload
 
 from attrs import evolve, field
 
 from i7000.arguments import as_tuple, check_type
 from i7000.errors import DecodeError, EncodeError, Fault, InvalidValueError, shown
 from i7000.frozen import frozen
-from i7000.modbus.register_values import counts_of, values_of
+from i7000.modbus.register_values import RegisterValue, counts_of, values_of
 from i7000.modbus.registers import Access, Area, Kind, Register, rows
 from i7000.modbus.request import ExceptionResponse, Request, Response
 from i7000.modbus.standard import (
@@ -121,7 +121,7 @@ class RegisterMap:
         self,
         address: int,
         key: str | int,
-        value: Any,  # noqa: ANN401 - what the row holds
+        value: RegisterValue | Sequence[RegisterValue],
         *,
         channels: range | None = None,
         big_endian: bool = False,
@@ -149,9 +149,17 @@ class RegisterMap:
             return WriteSingleRegister(address, start, counts[0])
         return WriteMultipleRegisters(address, start, tuple(counts))
 
+    @overload
+    def decode(
+        self, key: str | int, items: Iterable[int], *, channels: range, big_endian: bool = False
+    ) -> tuple[RegisterValue, ...]: ...
+    @overload
     def decode(
         self, key: str | int, items: Iterable[int], *, channels: range | None = None, big_endian: bool = False
-    ) -> Any:  # noqa: ANN401 - what the row holds
+    ) -> RegisterValue | tuple[RegisterValue, ...]: ...
+    def decode(
+        self, key: str | int, items: Iterable[int], *, channels: range | None = None, big_endian: bool = False
+    ) -> RegisterValue | tuple[RegisterValue, ...]:
         """Return the values of a row, or of some of its channels, from the `values` of the response.
 
         Shape: a row of one item, or one item by its number, is returned as one value; everything else as a tuple,
@@ -251,7 +259,9 @@ class Plan:
     registers: RegisterMap
     big_endian: bool
 
-    def decode(self, responses: Sequence[Items | ExceptionResponse]) -> dict[str, Any]:
+    def decode(
+        self, responses: Sequence[Items | ExceptionResponse]
+    ) -> dict[str, RegisterValue | tuple[RegisterValue, ...] | ExceptionResponse]:
         """Return the values by name; the value of a row whose request was refused is the exception.
 
         Errors: `InvalidValueError` for a wrong number of responses; `DecodeError` as for `RegisterMap.decode`, and for
@@ -264,7 +274,7 @@ class Plan:
             raise InvalidValueError("responses", len(responses), f"{len(self.requests)}, one for each request", "3.4")
         for request, response in zip(self.requests, responses, strict=True):
             _check_response(request, response)
-        values: dict[str, Any] = {}
+        values: dict[str, RegisterValue | tuple[RegisterValue, ...] | ExceptionResponse] = {}
         for row, at, first, count, key in self.places:
             response = responses[at]
             if isinstance(response, ExceptionResponse):

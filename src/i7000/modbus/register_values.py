@@ -22,10 +22,10 @@ from i7000.readings import (
     encode_word,
     signed,
 )
-from i7000.settings import LineSettings, ModbusDataFormat
+from i7000.settings import CjcUpdate, Filter, LineSettings, LogCommand, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["LogRecord", "readings", "words"]
+__all__ = ["LogRecord", "RegisterValue", "readings", "words"]
 
 _RECORD_READINGS = 16
 _NEARLY = 1e-6
@@ -42,6 +42,14 @@ class LogRecord:
 
     readings: tuple[Reading, ...]
     time: int
+
+
+Setting = CjcUpdate | Filter | Firmware | LineSettings | LogCommand | ModbusDataFormat | Protocol | TypeCode
+"""The values of coded registers."""
+RegisterValue = bool | int | float | str | Reading | LogRecord | Setting
+"""The value of one item of a row: a state, a number, a quantity in the unit of the row, a name, a reading, a record of
+the log, or a setting.
+"""
 
 
 def readings(words: Iterable[int], profile: Profile, *, channel: int = 0) -> tuple[Reading, ...]:
@@ -100,7 +108,7 @@ def _readings(values: tuple[int, ...], channel: int, profile: Profile) -> tuple[
 
 def values_of(  # noqa: PLR0913 - the row, and which values of it
     row: Register, items: tuple[int, ...], first: int, count: int, profile: Profile, *, big_endian: bool
-) -> tuple[Any, ...]:
+) -> tuple[RegisterValue, ...]:
     """Return `count` values of a row, beginning with value `first`."""
     width = row.kind.width
     if len(items) != count * width:
@@ -139,7 +147,7 @@ def _is_big_endian(row: Register, *, big_endian: bool) -> bool:
     return big_endian and row.word_order is WordOrder.SELECTED
 
 
-def _single(row: Register, item: int) -> Any:  # noqa: ANN401
+def _single(row: Register, item: int) -> RegisterValue:
     if row.kind is Kind.INT8:
         if item > 0xFF:
             allowed = f"00 in the high byte, not {item >> 8:02X}"
@@ -154,11 +162,11 @@ def _single(row: Register, item: int) -> Any:  # noqa: ANN401
     return item if row.scale in (None, 1) else item / _counts_per_unit(row)
 
 
-def _typed(row: Register, number: int) -> Any:  # noqa: ANN401
+def _typed(row: Register, number: int) -> RegisterValue:
     """Return the typed value of a number; undefined numbers stay ints, except where an enumeration has few codes."""
     if row.values is None:
         return number
-    read = _TYPED.get(row.values, row.values)
+    read: Callable[[int], RegisterValue | None] = _TYPED.get(row.values, row.values)
     try:
         value = read(number)
     except ValueError:
@@ -167,7 +175,7 @@ def _typed(row: Register, number: int) -> Any:  # noqa: ANN401
     return number if value is None else value
 
 
-_TYPED: dict[type, Callable[[int], Any]] = {
+_TYPED: dict[type, Callable[[int], RegisterValue | None]] = {
     TypeCode: TypeCode.of,
     LineSettings: lambda number: LineSettings.from_byte(number) if number <= 0xFF else None,
     Firmware: lambda number: None if number >> 24 else Firmware.from_bytes(number.to_bytes(3, "big")),

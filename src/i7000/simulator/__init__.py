@@ -5,17 +5,18 @@ In a test without an event loop::
     from i7000 import Model
     from i7000.simulator import Faults, simulate
 
-    with simulate(Model.I_7018, faults=Faults(late=0.1)) as running:
-        ...  # give running.url to your driver
-        running.power_cycle()
-        running.faults = Faults()
+    with simulate(Model.I_7018, faults=Faults(late=0.1)) as url:
+        ...  # give url to your driver
+        url.power_cycle()
+        url.faults = Faults()
 
 In an event loop: ``async with listen(Simulator(modules)) as place``. `Host` needs neither port nor network.
 
 Parts: `simulator` is the bus and its hosts, `threaded` runs one in a thread. `sources` are the input signals,
 `recordings` the same from CSV files. `faults` are the faults of the line, `foreign` finds frames of the wrong protocol,
 `changes` puts changes of modules in words. `memory` keeps the EEPROMs in a file, and `files` opens files safely.
-`pseudo_terminal`, `tcp` and `rfc2217` (with `telnet`) connect hosts to the bus, or to another line (`served`).
+`pseudo_terminal`, `tcp` and `rfc2217` (with `telnet`) connect hosts to the bus, or to another line (`served`):
+`proxy` is one in front of a real port (`target`). `deliveries` has the responses on their way.
 Laws: time, randomness and I/O are here; the behaviour of modules is in `i7000.device`. The names below are imported
 when they are first used, since networks take time to import.
 """

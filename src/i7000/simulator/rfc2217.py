@@ -111,7 +111,7 @@ class Rfc2217Connection(Connection):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Connect the host to the bus, and begin to negotiate."""
         super().connection_made(transport)
-        self.host.uart = Uart()
+        self.host.uart = self.host.uart or Uart()
         self._port = Port(self.host)
         self._telnet = Telnet()
         self._options = Options(_OURS, _THEIRS)

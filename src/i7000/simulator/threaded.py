@@ -8,7 +8,7 @@ import asyncio
 from collections.abc import Callable, Iterator
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, contextmanager
 from threading import Thread
-from typing import Literal, TypeVar
+from typing import Literal, Self, TypeVar
 
 from attrs import evolve
 
@@ -29,14 +29,23 @@ _PATIENCE = 30.0
 """The seconds after which a call of a simulator that does not react fails."""
 
 
-class RunningSimulator:
-    """A simulator that runs in another thread; its methods may be called from any thread."""
+class RunningSimulator(str):
+    """The URL of a simulator that runs in another thread: the port for a driver, as pyserial takes it.
 
-    def __init__(self, simulator: Simulator, url: str) -> None:
-        self.simulator = simulator
-        """The simulator; use it only inside of functions for `call`."""
-        self.url = url
-        """The port for a driver, as pyserial takes it: a path, ``socket://...`` or ``rfc2217://...``."""
+    It is a text: a path, ``socket://...`` or ``rfc2217://...``. Its other methods operate the simulator, and may be
+    called from any thread.
+    """
+
+    __slots__ = ("simulator",)
+
+    simulator: Simulator
+    """The simulator; use it only inside of functions for `call`."""
+
+    def __new__(cls, url: str, simulator: Simulator) -> Self:
+        """Make the URL of a simulator."""
+        running = super().__new__(cls, url)
+        running.simulator = simulator
+        return running
 
     def call(self, function: Callable[[Simulator], T]) -> T:
         """Call a function with the simulator, in its thread; return or raise what the function does."""
@@ -136,8 +145,8 @@ def simulate(
     Errors: `OSError` if the port cannot be opened.
 
     >>> from i7000.models import Model
-    >>> with simulate(Model.I_7018, over="socket") as running:
-    ...     running.url.startswith("socket://127.0.0.1:")
+    >>> with simulate(Model.I_7018, over="socket") as url:
+    ...     url.startswith("socket://127.0.0.1:")
     True
     """
     simulated = [_simulated(module, number) for number, module in enumerate(modules, 1)]
@@ -149,7 +158,7 @@ def simulate(
         simulator = Simulator(simulated, faults=faults, seed=seed, observe=observe, watch=watch)
         scheme, open_port = transport
         place = await opened.enter_async_context(open_port(simulator))
-        return RunningSimulator(simulator, scheme + place), loop.create_task(simulator.run())
+        return RunningSimulator(scheme + place, simulator), loop.create_task(simulator.run())
 
     async def stop(simulator: Simulator, task: "asyncio.Task[None]") -> None:
         simulator.end()

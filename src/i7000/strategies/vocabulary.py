@@ -1,6 +1,8 @@
 """Strategies for the values that both protocols share: profiles, settings, readings, errors."""
 
 from collections.abc import Callable, Mapping
+from functools import cache
+from string import ascii_uppercase
 from typing import Any
 
 from attrs import evolve
@@ -44,6 +46,7 @@ __all__ = [
 ]
 
 
+@cache
 def addresses() -> SearchStrategy[int]:
     """Make addresses, 01 first and 00 last."""
     return st.sampled_from((*range(1, 0x100), 0))
@@ -52,10 +55,21 @@ def addresses() -> SearchStrategy[int]:
 # --- models -----------------------------------------------------------------------------------------------------------
 
 
+@cache
 def firmwares() -> SearchStrategy[Firmware]:
     """Make firmware versions, most of them near the versions that added features."""
     deciding = st.builds("B{}.{}".format, st.integers(1, 4), st.integers(0, 9))
-    return (deciding | st.from_regex(r"[A-Z][0-9](\.[0-9]{1,2}|[0-9]{2})", fullmatch=True)).map(Firmware)
+    ends = (
+        *(f".{minor}" for minor in range(10)),
+        *(f"{point}{minor:02}" for point in (".", "") for minor in range(100)),
+    )
+    any_of_them = st.builds("{}{}{}".format, st.sampled_from(ascii_uppercase), st.integers(0, 9), st.sampled_from(ends))
+    return (deciding | any_of_them).map(Firmware)
+
+
+@cache
+def _known_firmwares() -> SearchStrategy[Firmware | None]:
+    return st.none() | firmwares()
 
 
 @st.composite
@@ -67,7 +81,7 @@ def profiles(draw: st.DrawFn, *models: Model, known_types: bool = False) -> Prof
     model = draw(st.sampled_from(models or tuple(Model)))
     profile = Profile(
         model,
-        firmware=draw(st.none() | firmwares()),
+        firmware=draw(_known_firmwares()),
         single_ended=model in series("7017Z") and draw(st.booleans()),
         data_format=draw(st.sampled_from(DataFormat)),
         checksum=draw(st.booleans()),

@@ -12,6 +12,7 @@ does: what it did not learn, and why, is in the value that it returns.
 """
 
 from i7000.host.procedures.change import Change, diff, restore, set_one
+from i7000.host.procedures.confirm import confirmed
 from i7000.host.procedures.identified import Candidate, Identified, Unknown
 from i7000.host.procedures.identify import identify
 from i7000.host.procedures.places import EVERY_LINE, SCAN_POLICY, Place, places, scan_time
@@ -52,6 +53,7 @@ __all__ = [
     "Unknown",
     "Wait",
     "ask",
+    "confirmed",
     "diff",
     "find_setting",
     "hazard_of",

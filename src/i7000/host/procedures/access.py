@@ -140,7 +140,7 @@ class InRegister:
 
     def value(self, response: Any) -> Any:  # noqa: ANN401 - of any setting
         """Return the value in the response, in the unit of the row."""
-        held = self.registers.decode(self.name, response.values)
+        held: Any = self.registers.decode(self.name, response.values)
         if self.channel is not None:
             return held[self.channel]
         return getattr(held, self.part) if self.part else held

@@ -4,7 +4,7 @@ Laws: asks only commands that read, and that change nothing in the module.
 """
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 from attrs import evolve
@@ -42,28 +42,9 @@ so that a duplicate of one is not taken for the other.
 """
 
 
-def identify_by_dcon(address: int, checksums: Iterable[bool], policy: Policy | None) -> Procedure[Identified]:
-    """Make the procedure that identifies the module at an address, with one of the checksum settings."""
-    unheard: tuple[Unknown, ...] = ()
-    for checksum in checksums:
-        profile = Profile(Model.I_7017, type_codes=(), checksum=checksum)  # asked only for what every model has
-        configured = yield from ask(dcon.ReadConfiguration(address), profile, policy)
-        heard: Result[Any] = configured
-        if configured.others and not _is_module(configured):
-            heard = yield from ask(dcon.ReadModuleName(address), profile, policy)
-        if _is_module(heard):
-            return (yield from _identified(address, configured, profile, policy))
-        unheard = (*unheard, unlearned("protocol", heard, profile))
-    return Identified(address, unknown=unheard)
-
-
-def _is_module(result: Result[Any]) -> bool:
-    return isinstance(result.outcome, Answered | Declined)
-
-
-def _identified(
-    address: int, configured: Result[dcon.Configuration], profile: Profile, policy: Policy | None
-) -> Procedure[Identified]:
+def identify_by_dcon(address: int, profile: Profile, policy: Policy | None) -> Procedure[Identified]:
+    """Make the procedure that identifies a module that answers with the checksum setting of `profile`."""
+    configured = yield from ask(dcon.ReadConfiguration(address), profile, policy)
     named, no_name = yield from value("name", dcon.ReadModuleName(address), profile, policy)
     version, no_version = yield from value("firmware", dcon.ReadFirmwareVersion(address), profile, policy)
     known, missing = _configured(configured, profile)
@@ -214,7 +195,7 @@ def _types(
 ) -> Procedure[tuple[Known, tuple[Unknown, ...]]]:
     """Make the procedure that reads the types: from the configuration if it has that of all channels."""
     if not evidence.models:
-        return known, ()
+        return known, (Unknown("types", evidence.reasons[-1]),)
     profile = _untyped(known, evidence.models[0])
     code = None if configuration is None else TypeCode.of(configuration.type_code)
     if isinstance(code, TypeCode) and profile.model.type_by_configuration:

@@ -11,7 +11,7 @@ from attrs import evolve
 from i7000 import modbus
 from i7000.dissect import Known
 from i7000.host.bus import Policy
-from i7000.host.events import Answered, Declined, TimedOut
+from i7000.host.events import Answered, Declined
 from i7000.host.procedures.asking import channel_types, outcome_words, types_of, unlearned, value
 from i7000.host.procedures.evidence import Evidence, by_factory_type, by_types
 from i7000.host.procedures.identified import Identified, Unknown, profile_of
@@ -36,16 +36,12 @@ _READ: Mapping[Area, Any] = {
 
 
 def identify_by_modbus(address: int, policy: Policy | None) -> Procedure[Identified]:
-    """Make the procedure that identifies the module, or another Modbus device, at an address."""
+    """Make the procedure that identifies a module, or another Modbus device, that answers."""
     named = yield from ask(modbus.ReadModuleName(address), _PLAIN, policy)
     name = named.outcome.response if isinstance(named.outcome, Answered) else None
     no_name = () if name is not None else (unlearned("name", named, _PLAIN),)
     version: modbus.FirmwareVersion | None = None
     no_version: tuple[Unknown, ...] = ()
-    if isinstance(named.outcome, TimedOut):
-        inputs = yield from ask(modbus.ReadInputRegisters(address, 0, 1), _PLAIN, policy)
-        if isinstance(inputs.outcome, TimedOut):
-            return Identified(address, unknown=(unlearned("protocol", inputs, _PLAIN),))
     if not isinstance(named.outcome, Declined):
         version, no_version = yield from value("firmware", modbus.ReadFirmwareVersion(address), _PLAIN, policy)
     if name is None and version is None:

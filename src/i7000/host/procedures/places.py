@@ -140,7 +140,7 @@ def scan_time(
     Errors: as for `places`.
     """
     check_type("policy", policy, Policy)
-    return sum(seconds_at(place, policy) for place in places(lines, addresses, protocols, checksums))
+    return sum((seconds_at(place, policy) for place in places(lines, addresses, protocols, checksums)), 0.0)
 
 
 def seconds_at(place: Place, policy: Policy) -> float:

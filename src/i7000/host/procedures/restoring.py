@@ -35,6 +35,7 @@ from i7000.host.procedures.step import Procedure, Tell, Tune, ask
 from i7000.host.procedures.values import Plain
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
+from i7000.type_codes import TypeCode
 
 __all__ = ["Restoration", "Restored", "Status", "make_so"]
 
@@ -107,7 +108,16 @@ def make_so(here: Here, wanted: Mapping[str, Plain], named: frozenset[str]) -> P
         reason = why_not(name, here.profile, here.protocol) if name in left else _NOT_NAMED
         results.append(Restored(name, Status.SKIPPED, wanted[name], reason=reason))
     line = None if here.line == started.line else here.line
-    return Restoration(tuple(results), here.address, here.profile, line)
+    return Restoration(tuple(results), here.address, _with_types(here.profile, results), line)
+
+
+def _with_types(profile: Profile, results: list[Restored]) -> Profile:
+    """Return a profile whose types, unknown after a change of the connecting mode, are those of the results."""
+    after = {it.name: it.after for it in results}
+    types = [after.get(f"type_code.{channel}") for channel in range(profile.channels)]
+    if profile.type_codes or None in types:
+        return profile
+    return evolve(profile, type_codes=tuple(TypeCode[str(plain)] for plain in types))
 
 
 _NOT_NAMED = "it was not named"
@@ -181,14 +191,19 @@ def _write(here: Here, targets: list[Target], answer: Answer, seen: Seen) -> Pro
     except I7000Error as error:
         return here, [target.ended(Status.SKIPPED, target.before, str(error)) for target in targets]
     setting = targets[0].setting
-    unlocking = _unlocking(here, setting)
-    places = _places(here, targets[0], answer.response, command, moves_line=bool(unlocking))
-    if places[0].address != here.address and (yield from _is_taken(places[0])):
-        reason = f"another module answers at address {places[0].address:02X}"
-        return here, [target.ended(Status.SKIPPED, target.before, reason) for target in targets]
-    for permission in unlocking:
-        yield from ask(permission, here.profile)
+    places: tuple[Here, ...] = (here,)
+    if setting.name == "address":
+        places = (evolve(here, address=targets[0].typed), here)
+        if (yield from _is_taken(places[0])):
+            reason = f"another module answers at address {places[0].address:02X}"
+            return here, [target.ended(Status.SKIPPED, target.before, reason) for target in targets]
     result = yield from ask(command, here.profile)
+    unlocking = _unlocking(here, setting) if isinstance(result.outcome, Declined) else ()
+    if unlocking:
+        for permission in unlocking:
+            yield from ask(permission, here.profile)
+        places = _retuned(here, answer.response, command)
+        result = yield from ask(command, here.profile)
     seen.answers.clear()
     now, back = yield from _read_back(places, targets)
     in_use = now is places[0] and (bool(unlocking) or not setting.deferred)
@@ -221,29 +236,22 @@ def _command(here: Here, targets: list[Target], response: Any) -> Any:  # noqa: 
 
 
 def _unlocking(here: Here, setting: Setting) -> tuple[dcon.Command[dcon.Acknowledged], ...]:
-    """Return the commands that permit a change of baud rate and checksum by software, on models that have them."""
+    """Return the commands that permit a refused change of baud rate and checksum, on models that have them.
+
+    Special: they are sent after a refusal only. Where the INIT switch is set, the change needs no permission and is in
+        use from the next power-on.
+    """
     by_configuration = setting.deferred and setting.access.family is dcon.ReadConfiguration
     if not by_configuration or Availability.SOFT_INIT in here.profile.refused:
         return ()
     return dcon.SetSoftInitTimeout(here.address, LONGEST_TIMEOUT), dcon.SoftInit(here.address)
 
 
-def _places(
-    here: Here,
-    target: Target,
-    read: Any,  # noqa: ANN401 - of either protocol
-    command: Any,  # noqa: ANN401
-    *,
-    moves_line: bool,
-) -> tuple[Here, ...]:
-    """Return where the module can be after the command, the new place first and the present one last."""
-    if target.setting.name == "address":
-        return evolve(here, address=target.typed), here
-    if moves_line:
-        profile = evolve(here.profile, checksum=command.report_settings.checksum)
-        old = read.line_settings if here.line is None else here.line
-        return evolve(here, profile=profile, line=command.line_settings), evolve(here, line=old)
-    return (here,)
+def _retuned(here: Here, read: dcon.Configuration, command: dcon.SetConfiguration) -> tuple[Here, Here]:
+    """Return where the module is after a soft INIT: with the new line settings and checksum, or the old ones."""
+    profile = evolve(here.profile, checksum=command.report_settings.checksum)
+    old = read.line_settings if here.line is None else here.line
+    return evolve(here, profile=profile, line=command.line_settings), evolve(here, line=old)
 
 
 def _is_taken(place: Here) -> Procedure[bool]:
@@ -256,8 +264,8 @@ def _is_taken(place: Here) -> Procedure[bool]:
 def _read_back(places: tuple[Here, ...], targets: list[Target]) -> Procedure[tuple[Here, Answer]]:
     """Return where the module answers, and its answer; the last place if it answers nowhere.
 
-    Special: a module that answers at a new place, and has not the wanted values, is at the last place: it hears other
-        line settings too where only the stop bits differ.
+    Special: a module that answers at a new place without the wanted values is at the last place: where only the stop
+        bits differ, it hears both.
     """
     line = places[-1].line
     for place in places:

@@ -6,6 +6,7 @@ where something answers Modbus.
 
 from collections.abc import Iterable
 from enum import Enum
+from typing import Any
 
 from attrs import field
 
@@ -145,7 +146,7 @@ def _look(place: Place, policy: Policy) -> Procedure[Finding]:
     heard = heard_at(place, result)
     name = None
     models: tuple[Model, ...] = ()
-    named: Result[Response] = result
+    named: Result[Any] = result
     if place.protocol is Protocol.MODBUS_RTU and heard in (Heard.ANSWER, Heard.REFUSAL):
         named = yield from ask(modbus.ReadModuleName(place.address), place.profile, policy)
     if isinstance(named.outcome, Answered):
@@ -154,14 +155,12 @@ def _look(place: Place, policy: Policy) -> Procedure[Finding]:
     return Finding(place, heard, result.outcome, name=name, models=models, reason=reason)
 
 
-def _identity(response: Response) -> tuple[str | None, tuple[Model, ...]]:
+def _identity(response: dcon.ModuleName | modbus.ModuleName) -> tuple[str, tuple[Model, ...]]:
     """Return a name and the models that have it."""
     if isinstance(response, dcon.ModuleName):
         return response.name, tuple(model for model in Model if model.factory_name == response.name)
-    if isinstance(response, modbus.ModuleName):
-        speaking = (model for model in Model if Protocol.MODBUS_RTU in model.protocols)
-        return response.name.hex().upper(), tuple(model for model in speaking if model.modbus_name == response.name)
-    return None, ()
+    speaking = (model for model in Model if Protocol.MODBUS_RTU in model.protocols)
+    return response.name.hex().upper(), tuple(model for model in speaking if model.modbus_name == response.name)
 
 
 # --- what was received ------------------------------------------------------------------------------------------------

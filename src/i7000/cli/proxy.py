@@ -1,0 +1,88 @@
+"""``i7000 proxy``: a real line with the faults of a bad one."""
+
+from typing import Annotated, Literal, cast
+
+from cyclopts import Parameter
+
+from i7000 import CharacterFormat, InvalidValueError
+from i7000.cli.refusals import as_written
+from i7000.cli.text import Printer
+from i7000.cli.words import UsageError, member
+
+__all__ = ["proxy"]
+
+
+def proxy(  # noqa: PLR0913 - each of them is an option
+    target: Annotated[str, Parameter(help="The port with the modules: a device, or a URL of pyserial.")],
+    /,
+    *,
+    pty: Annotated[
+        bool,
+        Parameter(
+            help="Open a pseudo-terminal. The default without --tcp and --rfc2217.", negative="", show_default=False
+        ),
+    ] = False,
+    tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
+    rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
+    baud: Annotated[int, Parameter(help="Baud rate of the target, in bits per second.")] = 9600,
+    character_format: Annotated[str, Parameter(help="Parity and stop bits of the target. Example: E81.")] = "N81",
+    fault: Annotated[
+        tuple[str, ...],
+        Parameter(
+            help="A fault of the line, as for `i7000 simulate`; repeat it for each. Example: late=0.25:0.9@01.",
+            negative="",
+            show_default=False,
+        ),
+    ] = (),
+    seed: Annotated[int, Parameter(help="Random seed for faults; the same seed and traffic repeat the faults.")] = 0,
+    view: Annotated[Literal["lines", "none"], Parameter(help="lines shows what arrives on either side.")] = "none",
+    control: Annotated[
+        str | None,
+        Parameter(
+            help="Take commands: - from standard input, a path at a Unix socket. Example: line.sock.",
+            allow_leading_hyphen=True,
+        ),
+    ] = None,
+) -> int:
+    """Put a real line behind the faults of a bad one, until Ctrl-C.
+
+    Your driver opens the port that is printed first, and talks through it to the modules at TARGET: a device such as
+    `/dev/ttyUSB0`, or a URL such as `socket://192.168.1.5:4001`. Without `--fault`, every byte passes unchanged.
+
+    Example: `i7000 proxy /dev/ttyUSB0 --baud 19200 --fault late=0.25:0.9@01 --view lines`
+
+    * Faults are those of `i7000 simulate`. An answer is what the target sends until a frame is complete, or the line
+      is silent for 50 ms; it goes to the driver that asked last.
+    * A driver that sets baud rate or parity over RFC 2217 sets those of the target. A pseudo-terminal and TCP have
+      none: give `--baud` and `--character-format`.
+    * `--control` takes `fault late=0.1`, `fault off`, `fault` and `quit`, one a line, and answers each by a line that
+      begins with `ok` or `error:`.
+    * The lines of `--view lines` are times, `->` for requests and `<-` for answers, bytes, and faults in brackets.
+
+    Exit code: 0 after `quit`, SIGTERM or SIGHUP; 2 for wrong usage; 3 if the target cannot be opened or is gone; 130
+    after Ctrl-C.
+    """
+    from i7000.cli import proxying  # noqa: PLC0415 - what it needs may not be there
+    from i7000.cli.faults import read_faults  # noqa: PLC0415
+    from i7000.cli.serving import read_place  # noqa: PLC0415
+    from i7000.device import Uart  # noqa: PLC0415
+
+    if not target.strip():
+        raise UsageError("give a target, such as /dev/ttyUSB0")
+    form = cast(CharacterFormat, member(character_format, CharacterFormat))
+    try:
+        uart = Uart(baud, parity=form.parity, stop_bits=form.stop_bits)
+    except InvalidValueError as refusal:
+        raise UsageError(as_written(refusal, "--baud", str(baud))) from None
+    places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
+    proxied = proxying.Proxied(
+        target,
+        uart,
+        read_faults(fault),
+        seed,
+        pty or not places,
+        tuple(places),
+        view,
+        control,
+    )
+    return proxying.run(proxied, Printer())
