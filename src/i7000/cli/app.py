@@ -13,6 +13,7 @@ from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
 from i7000.cli.proxy import proxy
+from i7000.cli.read import read
 from i7000.cli.registers import registers
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
@@ -23,14 +24,14 @@ __all__ = ["app", "run"]
 
 app = App(
     name="i7000",
-    help="Decode, encode and simulate DCON and Modbus RTU, the protocols of the ICP DAS I-7000 / M-7000 analog input"
-    " modules.\n\nExample: `i7000 decode '$012' '!01050600'`\n\nEvery command also exits with 2 if the output cannot be"
-    " written, 130 after Ctrl-C, 141 if the reader of the output stops early.",
+    help="Read ICP DAS I-7000 / M-7000 analog input modules, find and simulate them; decode and encode their protocols,"
+    " DCON and Modbus RTU.\n\nExample: `i7000 decode '$012' '!01050600'`\n\nEvery command also exits with 2 if the"
+    " output cannot be written, 130 after Ctrl-C, 141 if the reader of the output stops early.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, listen, simulate, proxy):
+for _command in (decode, encode, commands, registers, errata, listen, read, simulate, proxy):
     app.command(_command)
 
 
@@ -54,15 +55,15 @@ def run(arguments: Sequence[str] | None) -> int:
             Printer().error(_words(error))
         return error.code if isinstance(error, UsageError) else 2
     except ModuleNotFoundError as missing:
-        extra = "simulator" if missing.name in _OF_THE_SIMULATOR else "cli"
+        extra = _EXTRAS.get(missing.name or "", "cli")
         Printer().error(f'no module {missing.name}; this needs: pip install "i7000[{extra}]"')
         return 2
     except KeyboardInterrupt:
         return INTERRUPTED
 
 
-_OF_THE_SIMULATOR = ("cattrs", "filelock")
-"""What only an EEPROM file needs."""
+_EXTRAS = {"cattrs": "simulator", "filelock": "simulator", "serial": "serial"}
+"""The extras of what an EEPROM file and a port need."""
 
 
 def _words(error: Exception) -> str:

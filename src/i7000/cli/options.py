@@ -74,6 +74,19 @@ class Module:
             {address: known for address, known in by_address.items() if address is not None},
         )
 
+    def protocols(self) -> dict[int | None, Protocol]:
+        """Return the protocols in descriptions of --model, by address; the descriptions were read without an error."""
+        found: dict[int | None, Protocol] = {}
+        for text in self.model:
+            addressed = _ADDRESSED.fullmatch(text)
+            address, described = (integer(addressed[1]), addressed[2]) if addressed else (None, text)
+            settings = dict(part.strip().partition("=")[::2] for part in described.split(","))
+            if "protocol" in settings:
+                found[integer(settings["address"]) if "address" in settings else address] = choices.PROTOCOLS[
+                    settings["protocol"].strip().lower()
+                ]
+        return found
+
     def _read(self, protocol: str) -> dict[int | None, Known]:
         options = self._options(protocol)
         found: dict[int | None, Known] = {}

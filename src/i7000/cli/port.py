@@ -1,5 +1,7 @@
 """The commands that open a port: their options, and how they end at Ctrl-C.
 
+`Ending` remembers a signal, `BreakingEnding` also breaks off what waits.
+
 Laws: what opening a port needs is imported when one is opened.
 """
 
@@ -15,11 +17,23 @@ from cyclopts import Parameter
 from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
 from i7000.cli.numbers import baud_rate
 from i7000.cli.words import LineError, UsageError
+from i7000.host import Policy
 
 if TYPE_CHECKING:
     from i7000.link import Port
 
-__all__ = ["DEFAULT_LINE", "Ending", "LineOptions", "Target", "ended_by_signals", "opened"]
+__all__ = [
+    "DEFAULT_ASKING",
+    "DEFAULT_LINE",
+    "AskOptions",
+    "BreakingEnding",
+    "Ending",
+    "LineOptions",
+    "Target",
+    "broken_off_by_signals",
+    "ended_by_signals",
+    "opened",
+]
 
 Target = Annotated[
     str,
@@ -54,6 +68,35 @@ class LineOptions:
 DEFAULT_LINE = LineOptions()
 
 
+@Parameter(name="*")
+@frozen
+class AskOptions:
+    """How modules are asked."""
+
+    timeout: float = 0.2
+    """Seconds until a response has to begin, with the delays of adapters and networks. Example: --timeout 1."""
+    retries: int = 2
+    """How often a request without a response is sent again: 0 to 100."""
+    echo: Annotated[bool, Parameter(negative="")] = False
+    """Drop the echo of what is sent, which some 2-wire adapters return."""
+
+    def policy(self) -> Policy:
+        """Return the timeouts and retries.
+
+        Errors: `UsageError` for numbers beyond the range.
+        """
+        if not 0 < self.timeout <= _LONGEST_TIMEOUT:
+            raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT} seconds")
+        if not 0 <= self.retries <= _MOST_RETRIES:
+            raise UsageError(f"--retries {self.retries}: give 0 to {_MOST_RETRIES}")
+        return Policy(retries=self.retries, turnaround=self.timeout)
+
+
+DEFAULT_ASKING = AskOptions()
+_LONGEST_TIMEOUT = 60
+_MOST_RETRIES = 100
+
+
 @contextmanager
 def opened(target: str, line: LineSettings) -> "Iterator[Port]":
     """Open the port of a target until the end.
@@ -86,17 +129,60 @@ class Ending:
         self.number = number
 
 
+class BreakingEnding(Ending):
+    """An ending that breaks off what waits, and never what writes.
+
+    Laws: `KeyboardInterrupt` is raised within `breakable` only, or for a second signal.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._breakable = False
+
+    def ask(self, number: int, frame: FrameType | None) -> None:
+        """Remember a signal, and break off what may be; this handles signals."""
+        again = self.number != 0
+        super().ask(number, frame)
+        if self._breakable or again:
+            raise KeyboardInterrupt
+
+    @contextmanager
+    def breakable(self) -> Iterator[None]:
+        """Make a signal raise `KeyboardInterrupt` until the end of the block, also one that came before."""
+        try:
+            self._breakable = True
+            if self.number:
+                raise KeyboardInterrupt
+            yield
+        finally:
+            self._breakable = False
+
+
 @contextmanager
 def ended_by_signals() -> Iterator[Ending]:
     """Make Ctrl-C, and the signals that come when the program is ended or its terminal hangs up, ask for the end."""
     ending = Ending()
+    with _handling(ending):
+        yield ending
+
+
+@contextmanager
+def broken_off_by_signals() -> Iterator[BreakingEnding]:
+    """Make the same signals break off what waits, and ask for the end."""
+    ending = BreakingEnding()
+    with _handling(ending):
+        yield ending
+
+
+@contextmanager
+def _handling(ending: Ending) -> Iterator[None]:
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     before = {number: signal.getsignal(number) for number in numbers}
     try:
         for number, handler in before.items():
             if handler is not signal.SIG_IGN:
                 signal.signal(number, ending.ask)
-        yield ending
+        yield
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)

@@ -94,9 +94,13 @@ class Printer:
 
     def error(self, message: object) -> None:
         """Print an error."""
+        self.note(message, "red")
+
+    def note(self, message: object, style: str = "") -> None:
+        """Print a message beside the output, on standard error."""
         with suppress(OSError):  # `program` reports that the output cannot be written.
             self.flush()
-        line = [(f"i7000: {message}", "red")]
+        line = [(f"i7000: {message}", style)]
         if _is_styled(sys.stderr):
             _print(self.err, _text(line))
         elif sys.stderr:

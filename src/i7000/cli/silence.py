@@ -1,0 +1,63 @@
+"""Why a module does not answer: a short search at its address, and the likely cause in a sentence.
+
+Laws: the search only reads what changes nothing, and ends after a bounded number of requests.
+"""
+
+from collections.abc import Collection
+
+from attrs import evolve
+
+from i7000 import Protocol
+from i7000.host.procedures import SCAN_POLICY, Heard, Place, scan
+from i7000.link import Line
+
+__all__ = ["protocol_words", "silence_cause"]
+
+_INIT_ADDRESS = 0x00
+_CAUSES = {
+    Heard.NOTHING: "nothing came: check the address, --baud, the power and the wires (swap A and B)",
+    Heard.ECHO: "only the echo of the request came: give --echo",
+    Heard.NOISE: "bytes came that are no frame: another --baud or --character-format, swapped wires, or interference",
+    Heard.FRAME: "a frame came that is not the response: another host or module is sending",
+    Heard.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending",
+    Heard.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules with the same address",
+}
+"""What was heard, the more telling the later, and what to do."""
+
+
+def protocol_words(protocol: Protocol, *, checksum: bool) -> str:
+    """Return a protocol in words.
+
+    >>> protocol_words(Protocol.DCON, checksum=True)
+    'DCON with a checksum'
+    """
+    return "Modbus RTU" if protocol is Protocol.MODBUS_RTU else f"DCON {'with' if checksum else 'without'} a checksum"
+
+
+def silence_cause(line: Line, address: int, tried: Collection[tuple[Protocol, bool]]) -> str:
+    """Look for the module at an address, and return the likely cause of its silence.
+
+    Shape: `tried` has the protocols that were tried, each with whether DCON frames had a checksum.
+    Errors: `LinkError` for a port that is lost.
+    """
+    policy = evolve(SCAN_POLICY, turnaround=max(SCAN_POLICY.turnaround, line.policy.turnaround))
+    scanned = line.run(scan([line.line], [address], policy=policy))
+    devices = {finding.place.address: finding.place for finding in scanned.devices}
+    if address in devices:
+        return _device_cause(devices[address], tried)
+    if _INIT_ADDRESS in devices:
+        return (
+            "a module in INIT mode answers at address 00: give --address 0, or switch INIT off and its power off and on"
+        )
+    return _CAUSES[max((finding.heard for finding in scanned.findings), key=[*_CAUSES].index, default=Heard.NOTHING)]
+
+
+def _device_cause(place: Place, tried: Collection[tuple[Protocol, bool]]) -> str:
+    words = protocol_words(place.protocol, checksum=place.checksum)
+    if (place.protocol, place.checksum) in tried:
+        return (
+            f"it does answer {words} now: an unreliable line or a slow module; give a longer --timeout, more --retries"
+        )
+    if place.protocol is Protocol.MODBUS_RTU:
+        return f"it answers {words}: give --protocol rtu"
+    return f"it answers {words}: give --protocol dcon {'--checksum' if place.checksum else '--no-checksum'}"
