@@ -265,10 +265,10 @@ def _read_back(places: tuple[Here, ...], targets: list[Target]) -> Procedure[tup
     """Return where the module answers, and its answer; the last place if it answers nowhere.
 
     Special: a module that answers at a new place without the wanted values is at the last place: where only the stop
-        bits differ, it hears both.
+        bits differ, it hears both. An unexpected value is read twice: the first can be a late repetition of an old one.
     """
     line = places[-1].line
-    for place in places:
+    for place in (*places, places[-1]):
         if place.line is not None and place.line != line:
             line = place.line
             yield Tune(line)
