@@ -202,10 +202,19 @@ def test_another_product_is_reported(run: Run) -> None:
     assert told.code == 1
 
 
-def test_a_module_in_init_mode_is_reported(run: Run) -> None:
-    told = run("read", "sim:M-7018,type=K,address=5,init=true", "--address", "0")
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [
+        ("M-7018,address=5", "address 05, 9600 N81, Modbus RTU"),
+        ("M-7018,address=5,protocol=dcon,baud=19200", "address 05, 19200 N81, DCON without a checksum"),
+        ("I-7018,address=0x20,character_format=E81,checksum=true", "address 20h (32), 9600 E81, DCON with a checksum"),
+        ("I-7018Z,address=3", "address 03, 9600 N81, DCON without a checksum"),
+    ],
+)
+def test_a_module_in_init_mode_says_what_it_has_stored(run: Run, module: str, words: str) -> None:
+    told = run("read", f"sim:{module},init=true", "--address", "0")
 
-    assert "address 00: it is in INIT mode; the stored address is 05\n" in told.err
+    assert f"i7000: address 00: it is in INIT mode; stored: {words}\n" in told.err
     assert told.code == 0
 
 
