@@ -56,7 +56,7 @@ def listen(  # noqa: PLR0913 - each of them is an option
     if target is None:
         raise UsageError("give a port, such as i7000 listen /dev/ttyUSB0")
     if seconds is not None and not 0 <= seconds <= _LONGEST:
-        raise UsageError(f"--seconds {seconds:g}: give 0 to {_LONGEST}")
+        raise UsageError(f"--seconds {seconds:g}: give 0 to {_LONGEST:.0f}")
     for name in only:
         _check_name(name)
     listening = Listening(
