@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from i7000 import LineSettings
+from i7000 import LineSettings, Protocol
 from i7000.cli import scanning
-from i7000.cli.scanning import GUIDE
-from i7000.host.procedures import Heard
+from i7000.cli.scanning import GUIDE, Search, advice, duration_words
+from i7000.host.procedures import EVERY_LINE, SCAN_POLICY, Heard
 from i7000.link import VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -94,6 +94,19 @@ def test_if_nothing_answers_it_is_said_what_was_heard_and_what_to_try(run: Run) 
         " sim:I-7018,baud=1200 --address 0 --protocol dcon --no-checksum; docs/find_a_module.md has all steps"
     )
     assert (told.code, told.out) == (3, "")
+
+
+def test_what_was_tried_is_not_advised() -> None:
+    search = Search("COM3", EVERY_LINE, tuple(range(0x100)), tuple(Protocol), (False, True), SCAN_POLICY, echo=False)
+    heard, sure = advice(search, [])
+
+    assert heard.startswith("nothing was heard: ")
+    assert sure.startswith("the sure way: ")
+
+
+@pytest.mark.parametrize(("seconds", "words"), [(0.0, "1 s"), (59.6, "1 min 0 s"), (3661.0, "1 h 1 min")])
+def test_a_duration_is_rounded_to_what_matters(seconds: float, words: str) -> None:
+    assert duration_words(seconds) == words
 
 
 # --- the guide --------------------------------------------------------------------------------------------------------

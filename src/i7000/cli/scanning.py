@@ -3,12 +3,11 @@
 Laws: a search only reads, and never sends a broadcast. Ctrl-C ends it with what was found.
 """
 
-import json
 import shlex
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, cast
 
 from attrs import frozen
 from rich.progress import BarColumn, Progress, TextColumn
@@ -39,7 +38,7 @@ from i7000.host.procedures import (
 from i7000.host.procedures import Progress as Done
 from i7000.link import Line, LinkError
 
-__all__ = ["Search", "run"]
+__all__ = ["GUIDE", "Search", "advice", "duration_words", "run"]
 
 
 @frozen
@@ -204,7 +203,7 @@ def _heard_words(findings: list[Finding]) -> Iterator[str]:
         yield f"heard at {line_words(line)}, {count} {'time' if count == 1 else 'times'}: {_HEARD[heard]}"
 
 
-def _advice(search: Search, findings: list[Finding]) -> Iterator[str]:
+def advice(search: Search, findings: list[Finding]) -> Iterator[str]:
     """Yield what to try if nothing answered."""
     if not findings:
         yield (
@@ -259,7 +258,7 @@ def run(search: Search, printer: Printer) -> int:
     if found:
         return 0
     printer.note("no module answered", "red")
-    for words in _advice(search, findings):
+    for words in advice(search, findings):
         printer.note(words)
     return LineError.code
 
@@ -274,12 +273,10 @@ def _teller(
             draw(value)
         elif isinstance(value, Finding):
             findings.append(value)
-        elif isinstance(value, Found):
-            found.append(value)
-            if printer.json:
-                printer.write(json.dumps(_record(value)))
-            else:
-                printer.lines([[(_found_words(value), "green")]])
+        else:
+            it = cast(Found, value)
+            found.append(it)
+            printer.record(_record(it), [[(_found_words(it), "green")]])
             printer.flush()
 
     return tell
