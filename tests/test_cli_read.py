@@ -16,15 +16,17 @@ from typing import Any
 import pytest
 from attrs import evolve
 
-from i7000 import LineSettings, Model, Protocol
+from i7000 import LineSettings, Model, Protocol, dcon
 from i7000.cli import reading, reading_text, station
 from i7000.cli.durations import seconds
-from i7000.cli.port import BreakingEnding
+from i7000.cli.port import BreakingEnding, broken_off_by_signals
 from i7000.cli.reading import Schedule
 from i7000.cli.silence import silence_cause
+from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
-from i7000.host.procedures import Identified
+from i7000.host import Answered, TimedOut
+from i7000.host.procedures import Candidate, Identified, Result
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -202,11 +204,61 @@ def test_another_product_is_reported(run: Run) -> None:
     assert told.code == 1
 
 
-def test_a_module_in_init_mode_is_reported(run: Run) -> None:
-    told = run("read", "sim:M-7018,type=K,address=5,init=true", "--address", "0")
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [
+        ("M-7018,address=5", "address 05, 9600 N81, Modbus RTU"),
+        ("M-7018,address=5,protocol=dcon,baud=19200", "address 05, 19200 N81, DCON without a checksum"),
+        ("I-7018,address=0x20,character_format=E81,checksum=true", "address 20h (32), 9600 E81, DCON with a checksum"),
+        ("I-7018Z,address=3", "address 03, 9600 N81, DCON without a checksum"),
+    ],
+)
+def test_a_module_in_init_mode_says_what_it_has_stored(run: Run, module: str, words: str) -> None:
+    told = run("read", f"sim:{module},init=true", "--address", "0")
 
-    assert "address 00: it is in INIT mode; the stored address is 05\n" in told.err
+    assert f"i7000: address 00: it is in INIT mode; stored: {words}\n" in told.err
     assert told.code == 0
+
+
+def stored(models: tuple[Model, ...], protocol: Any, line: LineSettings | None = None) -> Stored | None:
+    """What is stored, of a module that answers only the question for its protocol, if at all."""
+    found = Identified(0x00, stored_address=0x05, candidates=tuple(map(Candidate, models)), line_settings=line)
+    procedure, answer = stored_settings(found), None
+    while True:
+        try:
+            command = procedure.send(answer).command  # type: ignore[union-attr]
+        except StopIteration as end:
+            return end.value  # type: ignore[no-any-return]
+        asked = isinstance(command, dcon.ReadProtocol) and protocol is not None
+        answer = Result(Answered(command, protocol) if asked else TimedOut(command))
+
+
+def test_what_a_module_in_init_mode_does_not_say_is_left_out() -> None:
+    found = stored((Model.M_7018,), None)
+
+    assert found == Stored(0x05, None, None, None)
+    assert found.words() == "in INIT mode; stored: address 05"
+
+
+@pytest.mark.parametrize(
+    ("models", "answer", "protocol"),
+    [
+        ((Model.I_7018,), None, Protocol.DCON),
+        ((Model.I_7018, Model.M_7018), None, Protocol.DCON),
+        ((Model.I_7018, Model.M_7018), Protocol.MODBUS_RTU, Protocol.MODBUS_RTU),
+        ((Model.M_7018,), Protocol.DCON, Protocol.DCON),
+    ],
+)
+def test_only_m_models_are_asked_for_the_stored_protocol(
+    models: tuple[Model, ...], answer: Protocol | None, protocol: Protocol
+) -> None:
+    said = None if answer is None else dcon.ProtocolSetting(0x00, modbus_supported=True, protocol=answer)
+
+    assert stored(models, said) == Stored(0x05, None, None, protocol)
+
+
+def test_settings_without_a_known_baud_rate_have_its_code() -> None:
+    assert line_words(LineSettings(0x0B)) == "0Bh N81"
 
 
 @pytest.mark.parametrize(
@@ -609,3 +661,17 @@ def test_ctrl_c_loses_no_line_of_a_process_that_reads_a_terminal_device(tmp_path
     assert len(lines) >= 3
     assert {line.count(",") for line in lines} == {head.count(",")}
     assert all(line.endswith("\n") for line in lines)
+
+
+def test_a_signal_that_is_ignored_stays_ignored() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with broken_off_by_signals() as ending:
+        os.kill(os.getpid(), signal.SIGINT)
+
+    assert ending.number == 0
+
+
+def test_without_a_standard_output_nothing_is_written(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+
+    assert run("read", SLOW, "--csv").code == 0

@@ -15,6 +15,7 @@ from i7000.cli.listen import listen
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
+from i7000.cli.scan import scan
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
@@ -31,7 +32,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, listen, read, simulate, proxy):
+for _command in (decode, encode, commands, registers, errata, listen, read, scan, simulate, proxy):
     app.command(_command)
 
 

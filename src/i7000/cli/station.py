@@ -13,6 +13,7 @@ from attrs import define, evolve, fields, frozen
 
 from i7000 import LineSettings, Profile, Protocol, describe
 from i7000.cli.silence import protocol_words
+from i7000.cli.stored import Stored, stored_settings
 from i7000.dissect import Fact, Known
 from i7000.dissect.known import fact_words
 from i7000.errors import InvalidValueError
@@ -127,7 +128,9 @@ class Station:
             return self._not_read(f"{'; '.join(found.reasons)}: give --model")
         self.profile = profile
         self.protocol = wanted.protocols[0] if found.protocol is None else found.protocol
-        return tuple(_found_words(wanted, found, profile, self.protocol)) if self.answered else ()
+        if not self.answered:
+            return ()
+        return tuple(_found_words(wanted, found, profile, line.run(stored_settings(found))))
 
     def _not_read(self, reason: str) -> tuple[str, ...]:
         """Remember why the module is not read; it is said once."""
@@ -184,18 +187,18 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
     return ((it.name, value) for it in fields(Known) if (value := getattr(known, it.name)) not in (None, ()))
 
 
-def _found_words(wanted: Wanted, found: Identified, profile: Profile, spoken: Protocol) -> Iterator[str]:
+def _found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
     models = " or ".join(candidate.model.value for candidate in found.candidates) or profile.model.value
     read_as = f", read as {profile.model.value}" if len(found.candidates) > 1 else ""
     version = found.known.firmware or found.version
     firmware = f" {version}" if version else ""
-    protocol = protocol_words(spoken, checksum=profile.checksum)
+    protocol = protocol_words(found.protocol or Protocol.DCON, checksum=profile.checksum)
     reasons = f" ({'; '.join(found.reasons)})" if found.reasons else ""
     yield f"{at}: {models}{firmware}{read_as}, {protocol}{reasons}"
-    if found.stored_address is not None:
-        yield f"{at}: it is in INIT mode; the stored address is {describe.address(found.stored_address)}"
+    if stored is not None:
+        yield f"{at}: it is {stored.words()}"
     if wanted.given.model and found.candidates and wanted.given.model not in {it.model for it in found.candidates}:
         yield f"{at}: it is read as {wanted.given.model.value}, as given, but it answers as {models}"
     learned = dict(_facts(found.known))
