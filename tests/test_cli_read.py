@@ -26,7 +26,7 @@ from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
 from i7000.host import Answered, TimedOut
-from i7000.host.procedures import Candidate, Identified, Result
+from i7000.host.procedures import Candidate, Identified, Result, Unknown, read
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -176,6 +176,22 @@ def test_a_module_that_does_not_say_what_it_is_is_read_as_given(run: Run, monkey
     assert (told.code, told.err) == (0, "")
 
 
+def test_it_is_said_if_disabled_channels_are_unknown(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def without_mask(*arguments: Any, **others: Any) -> Any:
+        report = yield from read(*arguments, **others)
+        return evolve(report, mask=None, unknown=(Unknown("mask", "no answer to $016"),))
+
+    monkeypatch.setattr(station, "read", without_mask)
+    told = run("read", "sim:I-7018")
+
+    assert told.err.endswith("address 01: disabled channels are unknown, and can read as 0: no answer to $016\n")
+    assert told.code == 0
+
+
+def test_a_module_of_no_modbus_address_is_asked_by_dcon(run: Run) -> None:
+    assert run("read", "sim:M-7018,address=250,protocol=dcon", "--address", "250", "--model", "M-7018").code == 0
+
+
 def test_a_given_model_that_does_not_answer_has_a_likely_cause(run: Run) -> None:
     told = run("read", "sim:I-7018", "--address", "9", "--model", "I-7018,checksum=false")
 
@@ -316,6 +332,8 @@ def test_what_was_heard_in_place_of_a_response_tells_the_cause(faults: Faults, c
             "--protocol rtu --model 1=M-7018,protocol=dcon",
             "--protocol rtu: --model says another protocol for address 1",
         ),
+        ("--address 0 --protocol rtu", "address 00: by Modbus, an address is 1..247"),
+        ("--model 250=M-7018,protocol=rtu", "address FAh (250): by Modbus, an address is 1..247"),
         ("--address 300", "--address 300: an address is 0..255 or 00h..FFh"),
     ],
 )
@@ -402,7 +420,8 @@ def test_another_text_is_no_duration(text: str) -> None:
 class Scene:
     """The ports that a reading opens: a simulated bus that can be changed, and lost, while it is read."""
 
-    def __init__(self, targets: tuple[str, ...], faults: Faults) -> None:
+    def __init__(self, targets: tuple[str, ...], faults: Faults, clock: Clock) -> None:
+        self.clock = clock
         self.targets = iter(targets)
         self.at_first = faults
         self.ports: list[Any] = []
@@ -423,9 +442,9 @@ class Scene:
 
 
 @pytest.fixture
-def scene(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Scene]:
+def scene(clock: "Clock", monkeypatch: pytest.MonkeyPatch) -> Callable[..., Scene]:
     def of(*targets: str, faults: Faults = Faults()) -> Scene:  # noqa: B008 - frozen
-        found = Scene(targets, faults)
+        found = Scene(targets, faults, clock)
         monkeypatch.setattr("i7000.link.open_target", found.open)
         return found
 
@@ -675,3 +694,40 @@ def test_without_a_standard_output_nothing_is_written(run: Run, monkeypatch: pyt
     monkeypatch.setattr(sys, "stdout", None)
 
     assert run("read", SLOW, "--csv").code == 0
+
+
+# --- bad lines --------------------------------------------------------------------------------------------------------
+
+BAD = [
+    Faults(flip=0.01),
+    Faults(drop=0.02),
+    Faults(noise=0.5),
+    Faults(late=0.5, duplicate=0.5),
+    Faults(replay=0.3, misaddress=0.3),
+    Faults(truncate=0.3, silent=0.2, refuse=0.2),
+    Faults(echo=True, lumps=True),
+]
+
+
+@pytest.mark.parametrize("form", ["--csv", "--json", ""])
+@pytest.mark.parametrize("faults", BAD)
+def test_on_a_bad_line_each_time_has_its_lines_with_true_values_or_none(
+    run: Run, scene: Any, faults: Faults, form: str
+) -> None:
+    made = scene("sim:M-7019R,type=K,channels=0+I-7018,type=K,checksum=true,channels=0")
+    meanwhile(made.clock, after_1=lambda: made.faults(faults))
+    told = run("read", "COM3", "--address", "1", "--address", "2", "--every", "1s", "--count", "12", *form.split())
+
+    assert told.code == 0
+    if form == "--json":
+        assert [it["address"] for it in told.records] == [1, 2] * 12
+        values = {it["channels"][0]["value"] for it in told.records if it["channels"]}
+    elif form == "--csv":
+        lines = [*csv.reader(told.out.splitlines())][1:]
+        assert [len(line) for line in lines] == [17] * 12
+        values = {float(cell) for line in lines for cell in (line[1], line[9]) if cell[:1].isdigit()}
+    else:
+        words = [line.split("  ") for line in told.out.splitlines()]
+        assert [line[1] for line in words] == ["01", "02"] * 12
+        values = {float(line[2].split()[0]) for line in words if line[2][:1].isdigit()}
+    assert {round(value, 1) for value in values if value is not None} == {152.4}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
+from i7000 import describe
 from i7000.cli.durations import seconds
 from i7000.cli.module import named
 from i7000.cli.options import UNKNOWN, Module, Texts, address_of
@@ -25,6 +26,7 @@ __all__ = ["read"]
 
 _SHORTEST_PERIOD = 0.05
 _LONGEST_PERIOD = 86400.0
+_MODBUS_ADDRESSES = range(1, 248)
 _PROTOCOLS = {
     "auto": (Protocol.DCON, Protocol.MODBUS_RTU),
     "dcon": (Protocol.DCON,),
@@ -144,7 +146,11 @@ def _wanted(addresses: tuple[str, ...], module: Module, protocol: str) -> "tuple
         spoken = protocols.get(number, protocols.get(None))
         if spoken is not None and spoken not in _PROTOCOLS[protocol]:
             raise UsageError(f"--protocol {protocol}: --model says another protocol for address {number}")
-        found.append(Wanted(number, given, _spoken(given, protocol) if spoken is None else (spoken,)))
+        tried = _spoken(given, protocol) if spoken is None else (spoken,)
+        tried = tuple(it for it in tried if it is Protocol.DCON or number in _MODBUS_ADDRESSES)
+        if not tried:
+            raise UsageError(f"address {describe.address(number)}: by Modbus, an address is 1..247")
+        found.append(Wanted(number, given, tried))
     return tuple(found)
 
 

@@ -25,8 +25,8 @@ from i7000.link import Line
 __all__ = ["Polled", "Station", "Wanted", "at_words"]
 
 _SILENT = "no answer"
-_FEW = 1
-"""The most retries to a module that did not answer a quick look."""
+_TRIED = 2
+"""The retries that are made otherwise: the quick look before, and the search for the cause of a silence after it."""
 _FIRST_REST = 2.0
 _LONGEST_REST = 60.0
 """Seconds for which a module that does not say what it is is left alone, at first and at most."""
@@ -113,7 +113,7 @@ class Station:
             protocols = (place.protocol,)
             checksum = place.checksum if place.protocol is Protocol.DCON else checksum
         else:
-            policy = evolve(policy, retries=min(policy.retries, 0 if self.pause else _FEW))
+            policy = evolve(policy, retries=0 if self.pause else max(0, policy.retries - _TRIED))
         found = line.run(identify(wanted.address, protocols=protocols, checksum=checksum, policy=policy))
         self.pause = min(max(2 * self.pause, _FIRST_REST), _LONGEST_REST)
         self.again = monotonic() + self.pause
