@@ -284,7 +284,10 @@ def test_the_extra_is_named_if_it_is_not_installed(
     assert 'pip install "i7000[cli]"' in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("missing", "extra"), [("filelock", "simulator"), ("cattrs", "simulator"), ("rich", "cli")])
+@pytest.mark.parametrize(
+    ("missing", "extra"),
+    [("filelock", "simulator"), ("cattrs", "simulator"), ("rich", "cli"), ("serial", "serial")],
+)
 def test_a_module_that_is_not_installed_is_reported_with_its_extra(
     missing: str, extra: str, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:

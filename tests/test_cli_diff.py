@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from i7000 import Model, Protocol, TypeCode
-from i7000.cli.diff import compare
+from i7000.cli.diff import Compared, compare
 from i7000.host.procedures import Snapshot
 from i7000.simulator.faults import Faults
 from i7000.simulator.simulator import Simulated
@@ -156,4 +156,4 @@ def test_a_file_that_cannot_be_read_is_reported_before_the_module_is_asked(run: 
 
 
 def test_equal_snapshots_have_no_changes() -> None:
-    assert compare(OVEN, OVEN).changes == compare(OVEN, OVEN).unread == ()
+    assert compare(OVEN, OVEN) == Compared((), (), ())

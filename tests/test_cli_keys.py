@@ -1,6 +1,7 @@
 """The keys of the live view."""
 
 import asyncio
+import errno
 import fcntl
 import os
 import pty
@@ -197,6 +198,21 @@ def test_a_terminal_that_is_gone_is_no_error(monkeypatch: pytest.MonkeyPatch) ->
 
     with terminal(monkeypatch) as person:
         prompted(press)
+
+
+def test_a_terminal_that_refuses_to_be_read_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> bytes:
+        raise OSError(errno.EIO, "Input/output error")
+
+    async def press(_: Simulator, prompt: Prompt) -> str:
+        with pressed(prompt):
+            monkeypatch.setattr("i7000.cli.keys.os.read", refuse)
+            os.write(person, b"f")
+            await asyncio.sleep(0.05)
+            return prompt.line().plain
+
+    with terminal(monkeypatch) as person:
+        assert prompted(press) == HINT
 
 
 def test_a_terminal_of_another_program_is_not_in_the_foreground() -> None:

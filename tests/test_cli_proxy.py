@@ -17,7 +17,10 @@ import pytest
 import serial
 
 from i7000 import Model
-from i7000.cli.proxying import NO_LINK, carried_line
+from i7000.cli import proxying
+from i7000.cli.outlet import Outlet
+from i7000.cli.proxying import carried_line
+from i7000.cli.text import Printer
 from i7000.recording.records import Carried
 from i7000.simulator import Simulated, default_sources, simulate
 from tests.simulation import MAIN, free_port, process, talk
@@ -113,8 +116,8 @@ def test_a_pseudo_terminal_is_the_default(run: Run, tmp_path: Path) -> None:
 def test_a_target_that_cannot_be_opened_is_no_link(run: Run) -> None:
     told = run("proxy", f"socket://127.0.0.1:{free_port()}", "--tcp", "0")
 
-    assert (told.code, told.out) == (NO_LINK, "")
-    assert re.match(r"i7000: socket://127\.0\.0\.1:\d+: Could not open port", told.err)
+    assert (told.code, told.out) == (3, "")
+    assert re.match(r"i7000: socket://127\.0\.0\.1:\d+: ", told.err)
 
 
 def test_a_target_that_is_gone_is_no_link(run: Run, tmp_path: Path) -> None:
@@ -126,7 +129,7 @@ def test_a_target_that_is_gone_is_no_link(run: Run, tmp_path: Path) -> None:
         target = f"socket://127.0.0.1:{server.getsockname()[1]}"
         told = proxied(run, target, "--tcp", "0", control=tmp_path / "sock", meanwhile=leave, end=b"")
 
-    assert told.code == NO_LINK
+    assert told.code == 3
     assert told.err.startswith("i7000: ")
 
 
@@ -139,6 +142,35 @@ def test_a_signal_ends_it(run: Run, tmp_path: Path, number: signal.Signals, code
         )  # fmt: skip
 
     assert (told.code, told.err) == (code, "")
+
+
+def test_it_needs_no_control(run: Run) -> None:
+    port = free_port()
+
+    def talk_and_end() -> None:
+        heard.extend(talk(f"socket://127.0.0.1:{port}", b"$01M\r"))
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    heard: list[bytes] = []
+    ending = Thread(target=talk_and_end)
+    with simulate(I_7018, over="socket") as url:
+        ending.start()
+        told = run("proxy", url, "--tcp", str(port))
+        ending.join()
+
+    assert (told.code, heard) == (0, [b"!017018\r"])
+
+
+def test_lines_that_nobody_reads_are_dropped() -> None:
+    class Unread(Outlet):
+        def skip(self, lines: int) -> bool:  # noqa: ARG002
+            return True
+
+    out = Unread(io.StringIO())
+    try:
+        assert proxying._show(Printer(), out, Carried(0.1, b"#01\r")) is None  # type: ignore[func-returns-value] # noqa: SLF001
+    finally:
+        out.close()
 
 
 def test_commands_come_from_standard_input_too(run: Run) -> None:
@@ -164,10 +196,11 @@ def test_an_output_that_cannot_be_written_is_a_failure(run: Run, monkeypatch: py
 @pytest.mark.parametrize(
     ("arguments", "said_"),
     [
-        ((" ",), "give a target, such as /dev/ttyUSB0"),
+        ((" ",), "target cannot be"),
+        (("sim:I-7018",), "i7000 simulate --fault"),
         (("/dev/null", "--fault", "x"), "there is no fault 'x'"),
-        (("/dev/null", "--character-format", "N8"), "'N8' is not one of"),
-        (("/dev/null", "--baud", "0"), "--baud cannot be 0"),
+        (("/dev/null", "--character-format", "N8"), "N8"),
+        (("/dev/null", "--baud", "0"), "--baud 0"),
         (("/dev/null", "--tcp", "x"), "is not [HOST:]PORT"),
     ],
 )

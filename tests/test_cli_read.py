@@ -16,15 +16,17 @@ from typing import Any
 import pytest
 from attrs import evolve
 
-from i7000 import LineSettings, Model, Protocol
+from i7000 import LineSettings, Model, Protocol, dcon
 from i7000.cli import reading, reading_text, station
 from i7000.cli.durations import seconds
-from i7000.cli.port import BreakingEnding
+from i7000.cli.port import BreakingEnding, broken_off_by_signals
 from i7000.cli.reading import Schedule
 from i7000.cli.silence import silence_cause
+from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
-from i7000.host.procedures import Identified
+from i7000.host import Answered, TimedOut
+from i7000.host.procedures import Candidate, Identified, Result, Unknown, read
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -174,6 +176,22 @@ def test_a_module_that_does_not_say_what_it_is_is_read_as_given(run: Run, monkey
     assert (told.code, told.err) == (0, "")
 
 
+def test_it_is_said_if_disabled_channels_are_unknown(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def without_mask(*arguments: Any, **others: Any) -> Any:
+        report = yield from read(*arguments, **others)
+        return evolve(report, mask=None, unknown=(Unknown("mask", "no answer to $016"),))
+
+    monkeypatch.setattr(station, "read", without_mask)
+    told = run("read", "sim:I-7018")
+
+    assert told.err.endswith("address 01: disabled channels are unknown, and can read as 0: no answer to $016\n")
+    assert told.code == 0
+
+
+def test_a_module_of_no_modbus_address_is_asked_by_dcon(run: Run) -> None:
+    assert run("read", "sim:M-7018,address=250,protocol=dcon", "--address", "250", "--model", "M-7018").code == 0
+
+
 def test_a_given_model_that_does_not_answer_has_a_likely_cause(run: Run) -> None:
     told = run("read", "sim:I-7018", "--address", "9", "--model", "I-7018,checksum=false")
 
@@ -202,11 +220,61 @@ def test_another_product_is_reported(run: Run) -> None:
     assert told.code == 1
 
 
-def test_a_module_in_init_mode_is_reported(run: Run) -> None:
-    told = run("read", "sim:M-7018,type=K,address=5,init=true", "--address", "0")
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [
+        ("M-7018,address=5", "address 05, 9600 N81, Modbus RTU"),
+        ("M-7018,address=5,protocol=dcon,baud=19200", "address 05, 19200 N81, DCON without a checksum"),
+        ("I-7018,address=0x20,character_format=E81,checksum=true", "address 20h (32), 9600 E81, DCON with a checksum"),
+        ("I-7018Z,address=3", "address 03, 9600 N81, DCON without a checksum"),
+    ],
+)
+def test_a_module_in_init_mode_says_what_it_has_stored(run: Run, module: str, words: str) -> None:
+    told = run("read", f"sim:{module},init=true", "--address", "0")
 
-    assert "address 00: it is in INIT mode; the stored address is 05\n" in told.err
+    assert f"i7000: address 00: it is in INIT mode; stored: {words}\n" in told.err
     assert told.code == 0
+
+
+def stored(models: tuple[Model, ...], protocol: Any, line: LineSettings | None = None) -> Stored | None:
+    """What is stored, of a module that answers only the question for its protocol, if at all."""
+    found = Identified(0x00, stored_address=0x05, candidates=tuple(map(Candidate, models)), line_settings=line)
+    procedure, answer = stored_settings(found), None
+    while True:
+        try:
+            command = procedure.send(answer).command  # type: ignore[union-attr]
+        except StopIteration as end:
+            return end.value  # type: ignore[no-any-return]
+        asked = isinstance(command, dcon.ReadProtocol) and protocol is not None
+        answer = Result(Answered(command, protocol) if asked else TimedOut(command))
+
+
+def test_what_a_module_in_init_mode_does_not_say_is_left_out() -> None:
+    found = stored((Model.M_7018,), None)
+
+    assert found == Stored(0x05, None, None, None)
+    assert found.words() == "in INIT mode; stored: address 05"
+
+
+@pytest.mark.parametrize(
+    ("models", "answer", "protocol"),
+    [
+        ((Model.I_7018,), None, Protocol.DCON),
+        ((Model.I_7018, Model.M_7018), None, Protocol.DCON),
+        ((Model.I_7018, Model.M_7018), Protocol.MODBUS_RTU, Protocol.MODBUS_RTU),
+        ((Model.M_7018,), Protocol.DCON, Protocol.DCON),
+    ],
+)
+def test_only_m_models_are_asked_for_the_stored_protocol(
+    models: tuple[Model, ...], answer: Protocol | None, protocol: Protocol
+) -> None:
+    said = None if answer is None else dcon.ProtocolSetting(0x00, modbus_supported=True, protocol=answer)
+
+    assert stored(models, said) == Stored(0x05, None, None, protocol)
+
+
+def test_settings_without_a_known_baud_rate_have_its_code() -> None:
+    assert line_words(LineSettings(0x0B)) == "0Bh N81"
 
 
 @pytest.mark.parametrize(
@@ -264,6 +332,8 @@ def test_what_was_heard_in_place_of_a_response_tells_the_cause(faults: Faults, c
             "--protocol rtu --model 1=M-7018,protocol=dcon",
             "--protocol rtu: --model says another protocol for address 1",
         ),
+        ("--address 0 --protocol rtu", "address 00: by Modbus, an address is 1..247"),
+        ("--model 250=M-7018,protocol=rtu", "address FAh (250): by Modbus, an address is 1..247"),
         ("--address 300", "--address 300: an address is 0..255 or 00h..FFh"),
     ],
 )
@@ -350,7 +420,8 @@ def test_another_text_is_no_duration(text: str) -> None:
 class Scene:
     """The ports that a reading opens: a simulated bus that can be changed, and lost, while it is read."""
 
-    def __init__(self, targets: tuple[str, ...], faults: Faults) -> None:
+    def __init__(self, targets: tuple[str, ...], faults: Faults, clock: Clock) -> None:
+        self.clock = clock
         self.targets = iter(targets)
         self.at_first = faults
         self.ports: list[Any] = []
@@ -371,9 +442,9 @@ class Scene:
 
 
 @pytest.fixture
-def scene(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Scene]:
+def scene(clock: "Clock", monkeypatch: pytest.MonkeyPatch) -> Callable[..., Scene]:
     def of(*targets: str, faults: Faults = Faults()) -> Scene:  # noqa: B008 - frozen
-        found = Scene(targets, faults)
+        found = Scene(targets, faults, clock)
         monkeypatch.setattr("i7000.link.open_target", found.open)
         return found
 
@@ -609,3 +680,54 @@ def test_ctrl_c_loses_no_line_of_a_process_that_reads_a_terminal_device(tmp_path
     assert len(lines) >= 3
     assert {line.count(",") for line in lines} == {head.count(",")}
     assert all(line.endswith("\n") for line in lines)
+
+
+def test_a_signal_that_is_ignored_stays_ignored() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with broken_off_by_signals() as ending:
+        os.kill(os.getpid(), signal.SIGINT)
+
+    assert ending.number == 0
+
+
+def test_without_a_standard_output_nothing_is_written(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+
+    assert run("read", SLOW, "--csv").code == 0
+
+
+# --- bad lines --------------------------------------------------------------------------------------------------------
+
+BAD = [
+    Faults(flip=0.01),
+    Faults(drop=0.02),
+    Faults(noise=0.5),
+    Faults(late=0.5, duplicate=0.5),
+    Faults(replay=0.3, misaddress=0.3),
+    Faults(truncate=0.3, silent=0.2, refuse=0.2),
+    Faults(echo=True, lumps=True),
+]
+
+
+@pytest.mark.parametrize("form", ["--csv", "--json", ""])
+@pytest.mark.parametrize("faults", BAD)
+def test_on_a_bad_line_each_time_has_its_lines_with_true_values_or_none(
+    run: Run, scene: Any, faults: Faults, form: str
+) -> None:
+    made = scene("sim:M-7019R,type=K,channels=0+I-7018,type=K,checksum=true,channels=0")
+    meanwhile(made.clock, after_1=lambda: made.faults(faults))
+    told = run("read", "COM3", "--address", "1", "--address", "2", "--every", "1s", "--count", "12", *form.split())
+
+    assert told.code == 0
+    if form == "--json":
+        assert [it["address"] for it in told.records] == [1, 2] * 12
+        values = {it["channels"][0]["value"] for it in told.records if it["channels"]}
+    elif form == "--csv":
+        lines = [*csv.reader(told.out.splitlines())][1:]
+        assert [len(line) for line in lines] == [17] * 12
+        values = {float(cell) for line in lines for cell in (line[1], line[9]) if cell[:1].isdigit()}
+    else:
+        words = [line.split("  ") for line in told.out.splitlines()]
+        assert [line[1] for line in words] == ["01", "02"] * 12
+        values = {float(line[2].split()[0]) for line in words if line[2][:1].isdigit()}
+    assert {round(value, 1) for value in values if value is not None} == {152.4}

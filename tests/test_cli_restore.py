@@ -17,7 +17,7 @@ from tests.terminal import Run
 from tests.workbench import DEAD, Bench, Workbench
 
 KELVIN = module(Model.M_7019R, type_codes=(TypeCode.K,) * 8)
-SETTINGS = {"host_watchdog_timeout": 2.5, "name": "OVEN", "type_code.0": "J", "type_code.1": "J"}
+SETTINGS: dict[str, Any] = {"host_watchdog_timeout": 2.5, "name": "OVEN", "type_code.0": "J", "type_code.1": "J"}
 
 
 def file(folder: Path, model: Model = Model.M_7019R, **settings: Any) -> str:
@@ -26,7 +26,7 @@ def file(folder: Path, model: Model = Model.M_7019R, **settings: Any) -> str:
     return str(path)
 
 
-OVEN = {"host_watchdog_timeout": 25, "name": "OVEN", "type_codes": (TypeCode.J,) * 2 + (TypeCode.K,) * 6}
+OVEN: dict[str, Any] = {"host_watchdog_timeout": 25, "name": "OVEN", "type_codes": (TypeCode.J,) * 2 + (TypeCode.K,) * 6}
 
 
 def test_what_would_change_is_shown_and_then_what_became_of_it(workbench: Bench, tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_a_module_that_got_another_baud_rate_is_followed(workbench: Bench, tmp_p
 
     told = bench("restore", file(tmp_path, baud_rate=19200, checksum=True), "baud_rate", "checksum", "--yes")
 
-    assert told.err.splitlines()[-1] == "i7000: the module now has 19200 baud, N81, a checksum"
+    assert told.err.splitlines()[-1] == "i7000: the module now has 19200 N81, a checksum"
     assert (told.code, bench.eeprom.line_settings.baud_rate) == (0, BaudRate.BAUD_19200)
 
 

@@ -178,7 +178,7 @@ def test_a_module_that_moved_is_followed(workbench: Bench) -> None:
 
     assert told.err.splitlines()[1:] == [
         "i7000: the module now has address 05",
-        "i7000: the module now has 19200 baud, N81",
+        "i7000: the module now has 19200 N81",
         "i7000: the module now has a checksum",
     ]
     assert (told.code, bench.eeprom.address, bench.eeprom.name) == (0, 5, "OVEN")

@@ -303,6 +303,15 @@ def test_what_is_shown_appears_and_the_terminal_is_left_as_it_was() -> None:
     assert text.rindex("\x1b[?25h") > text.rindex("ReadAnalogInputs")
 
 
+def test_it_is_drawn_at_once_if_asked_to() -> None:
+    terminal = Terminal()
+    with live(terminal) as view:
+        view.show(heard())
+        view.refresh()
+
+        assert "ReadAnalogInputs" in terminal.getvalue()
+
+
 def test_the_terminal_is_left_as_it_was_after_an_error_too() -> None:
     terminal = Terminal()
     with pytest.raises(KeyboardInterrupt), live(terminal):

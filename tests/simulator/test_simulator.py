@@ -10,8 +10,8 @@ from time import monotonic, sleep
 import pytest
 from attrs import evolve
 
-from i7000 import Model, Noise, Profile, Protocol, ReportSettings, Unit, dcon, modbus
-from i7000.device import Eeprom, Signal
+from i7000 import LogCommand, Model, Noise, Profile, Protocol, ReportSettings, Unit, dcon, modbus
+from i7000.device import Bus, Eeprom, Log, Signal
 from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
 from i7000.simulator.faults import Faults, Way
 from i7000.simulator.memory import MemoryFileError
@@ -414,6 +414,41 @@ def test_changes_of_settings_are_reported_after_they_are_stored_and_answered() -
     assert isinstance(change, Change)
     assert (change.address, change.model, change.what) == (1, Model.I_7018, ("name 7018 -> ABC",))
     assert answer == b"!01\r"
+
+
+def test_a_power_cycle_that_cannot_be_stored_is_not_reported() -> None:
+    changed: list[Change] = []
+    due = Log(command=LogCommand.CONTINUOUS, period=(0, 0, 1))
+
+    def store(_: Sequence[Eeprom]) -> None:
+        raise OSError("no space")
+
+    async def cycle() -> bool:
+        simulator = Simulator([module(Model.M_7017mC_16)], store=store, watch=changed.append)
+        (state,) = simulator.bus.modules
+        simulator.bus = before = Bus((state.store(log=due),))
+        simulator.power_cycle()
+        with pytest.raises(OSError, match="no space"):
+            await simulator.run()
+        return simulator.bus is before
+
+    assert asyncio.run(cycle())
+    assert changed == []
+
+
+def test_what_a_data_logger_writes_is_stored_and_not_reported() -> None:
+    stored: list[Sequence[Eeprom]] = []
+    changed: list[Change] = []
+
+    async def write() -> None:
+        simulator = Simulator([I_7018], store=stored.append, watch=changed.append)
+        (state,) = simulator.bus.modules
+        simulator.change(Bus((state.store(log=evolve(Log())),)))
+        simulator.report_changes()
+
+    asyncio.run(write())
+
+    assert (len(stored), changed) == (1, [])
 
 
 def test_the_init_switch_is_read_at_power_on() -> None:

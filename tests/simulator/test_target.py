@@ -7,14 +7,14 @@ import threading
 import tty
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import pytest
 import serial
 
 from i7000.device import Uart
-from i7000.simulator.target import Target, TargetError, open_port
+from i7000.link import LinkError, open_target
+from i7000.simulator.target import Target
 from tests.waiting import ENOUGH
 
 
@@ -62,32 +62,10 @@ def test_bytes_pass_in_both_directions() -> None:
         return heard + answer
 
     with device() as (end, path):
-        port = open_port(path, Uart(9600))
+        port: Any = open_target(path)
         assert used(port, talk) == b"#01\r>+1.0000\r"
 
     assert (port.baudrate, port.stopbits, port.is_open) == (19200, 2, False)
-
-
-@pytest.mark.parametrize(
-    ("target", "said"),
-    [
-        ("/nowhere", "/nowhere: "),
-        ("nonsense://x", "nonsense://x: "),
-        ("socket://127.0.0.1:1", "socket://127.0.0.1:1: Could not open port"),
-    ],
-)
-def test_a_port_that_cannot_be_opened_is_named(target: str, said: str) -> None:
-    with pytest.raises(TargetError) as refused:
-        open_port(target, Uart())
-
-    assert str(refused.value).startswith(said)
-
-
-def test_a_file_is_no_port(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-
-    with pytest.raises(TargetError):
-        open_port(str(tmp_path / "file"), Uart())
 
 
 class Broken(serial.SerialBase):
@@ -97,6 +75,7 @@ class Broken(serial.SerialBase):
 
     def __init__(self, *, reads: bool) -> None:
         super().__init__()
+        self.is_open = True
         self.reads = reads
         self.name = "COM9"
 
@@ -117,14 +96,15 @@ class Broken(serial.SerialBase):
 
 
 @pytest.mark.parametrize(
-    ("reads", "said"), [(True, "COM9: byte indices must be integers"), (False, "COM9: Write timeout")]
+    ("reads", "said"),
+    [(True, "byte indices must be integers"), (False, "Write timeout")],
 )
 def test_a_port_that_fails_is_lost(*, reads: bool, said: str) -> None:
     async def wait(target: Target, came: "asyncio.Queue[Any]") -> str:
         target.write(b"#01\r")
         return str(await came.get())
 
-    assert used(Broken(reads=reads), wait) == said
+    assert used(Broken(reads=reads), wait) == f"COM9: the port is lost: {said}"
 
 
 def test_a_port_that_takes_nothing_does_not_fill_the_memory() -> None:
@@ -159,7 +139,7 @@ def test_a_failure_while_it_is_closed_is_no_loss() -> None:
     async def close(target: Target, came: "asyncio.Queue[Any]") -> bool:
         target._ended = True  # noqa: SLF001 - as `close` begins
         target.write(b"x")
-        target._fail(OSError("gone"))  # noqa: SLF001
+        target._fail(LinkError("gone"))  # noqa: SLF001
         await asyncio.sleep(0.01)
         return came.empty()
 
@@ -168,7 +148,7 @@ def test_a_failure_while_it_is_closed_is_no_loss() -> None:
 
 def test_a_port_that_was_never_started_is_closed() -> None:
     with device() as (_, path):
-        port = open_port(path, Uart())
+        port: Any = open_target(path)
 
         async def close() -> None:
             await Target(port).close()
@@ -176,3 +156,17 @@ def test_a_port_that_was_never_started_is_closed() -> None:
         asyncio.run(close())
 
     assert not port.is_open
+
+
+def test_line_settings_that_a_port_does_not_have_are_a_loss() -> None:
+    class Fixed(Broken):
+        def __setattr__(self, name: str, value: object) -> None:
+            if (name, value) == ("baudrate", 19200):
+                raise OSError("Invalid argument")
+            super().__setattr__(name, value)
+
+    async def tune(target: Target, came: "asyncio.Queue[Any]") -> str:
+        target.tune(Uart(19200))
+        return str(await came.get())
+
+    assert used(Fixed(reads=False), tune).startswith("COM9: the port cannot be set to Uart(rate=19200")

@@ -18,6 +18,7 @@ from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
 from i7000.cli.restore import restore
+from i7000.cli.scan import scan
 from i7000.cli.send import send
 from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
@@ -37,7 +38,7 @@ app = App(
 )
 
 for _command in (
-    decode, encode, commands, registers, errata, listen, read, send, backup, diff, restore, simulate, proxy,
+    decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
 ):  # fmt: skip
     app.command(_command)
 app.command(set_setting, name="set")

@@ -10,6 +10,7 @@ from i7000 import describe
 from i7000.cli.asked import LEFT_CHANGED
 from i7000.cli.reached import Reached
 from i7000.cli.setting_text import names_words, restored_lines, restored_record
+from i7000.cli.stored import line_words
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
 from i7000.host.procedures import Procedure, Restoration, Restored, Status, Writing
@@ -106,7 +107,7 @@ class Changes:
         if after.address != there.address:
             words.append(f"address {describe.address(after.address)}")
         if after.line is not None:
-            words.append(describe.line_settings(after.line).partition(", ")[2])
+            words.append(line_words(after.line))
         if profile.checksum is not there.profile.checksum:
             words.append(f"{'a' if profile.checksum else 'no'} checksum")
         if words:

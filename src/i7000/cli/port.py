@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from attrs import frozen
+from attrs import evolve, frozen
 from cyclopts import Parameter
 
 from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
@@ -73,23 +73,29 @@ DEFAULT_LINE = LineOptions()
 class AskOptions:
     """How modules are asked."""
 
-    timeout: float = 0.2
-    """Seconds until a response has to begin, with the delays of adapters and networks. Example: --timeout 1."""
-    retries: int = 2
-    """How often a request without a response is sent again: 0 to 100."""
+    timeout: float | None = None
+    """Seconds until a response has to begin, with the delays of adapters and networks. Default: 0.2; 0.1 for
+    `i7000 scan`. Example: --timeout 1."""
+    retries: int | None = None
+    """How often a request without a response is sent again: 0 to 100. Default: 2; 0 for `i7000 scan`."""
     echo: Annotated[bool, Parameter(negative="")] = False
     """Drop the echo of what is sent, which some 2-wire adapters return."""
 
-    def policy(self) -> Policy:
-        """Return the timeouts and retries.
+    def policy(self, otherwise: Policy = Policy()) -> Policy:  # noqa: B008 - frozen
+        """Return the timeouts and retries, from `otherwise` unless they are given.
 
         Errors: `UsageError` for numbers beyond the range.
         """
-        if not 0 < self.timeout <= _LONGEST_TIMEOUT:
-            raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT} seconds")
-        if not 0 <= self.retries <= _MOST_RETRIES:
-            raise UsageError(f"--retries {self.retries}: give 0 to {_MOST_RETRIES}")
-        return Policy(retries=self.retries, turnaround=self.timeout)
+        policy = otherwise
+        if self.timeout is not None:
+            if not 0 < self.timeout <= _LONGEST_TIMEOUT:
+                raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT} seconds")
+            policy = evolve(policy, turnaround=self.timeout, grace=max(policy.grace, self.timeout / 2))
+        if self.retries is not None:
+            if not 0 <= self.retries <= _MOST_RETRIES:
+                raise UsageError(f"--retries {self.retries}: give 0 to {_MOST_RETRIES}")
+            policy = evolve(policy, retries=self.retries)
+        return policy
 
 
 DEFAULT_ASKING = AskOptions()

@@ -1,19 +1,19 @@
 """``i7000 proxy``: a real line with the faults of a bad one."""
 
-from typing import Annotated, Literal, cast
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from i7000 import CharacterFormat, InvalidValueError
-from i7000.cli.refusals import as_written
+from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
+from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
-from i7000.cli.words import UsageError, member
+from i7000.cli.words import UsageError
 
 __all__ = ["proxy"]
 
 
 def proxy(  # noqa: PLR0913 - each of them is an option
-    target: Annotated[str, Parameter(help="The port with the modules: a device, or a URL of pyserial.")],
+    target: Target,
     /,
     *,
     pty: Annotated[
@@ -24,8 +24,6 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     ] = False,
     tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
     rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
-    baud: Annotated[int, Parameter(help="Baud rate of the target, in bits per second.")] = 9600,
-    character_format: Annotated[str, Parameter(help="Parity and stop bits of the target. Example: E81.")] = "N81",
     fault: Annotated[
         tuple[str, ...],
         Parameter(
@@ -43,6 +41,8 @@ def proxy(  # noqa: PLR0913 - each of them is an option
             allow_leading_hyphen=True,
         ),
     ] = None,
+    recording: RecordOptions = NOWHERE,
+    line: LineOptions = DEFAULT_LINE,
 ) -> int:
     """Put a real line behind the faults of a bad one, until Ctrl-C.
 
@@ -59,30 +59,28 @@ def proxy(  # noqa: PLR0913 - each of them is an option
       begins with `ok` or `error:`.
     * The lines of `--view lines` are times, `->` for requests and `<-` for answers, bytes, and faults in brackets.
 
+    `--record` writes what arrives on either side, with the faults; `i7000 decode --file` reads it. If the disk is full,
+    the recording stops, not the proxy.
+
     Exit code: 0 after `quit`, SIGTERM or SIGHUP; 2 for wrong usage; 3 if the target cannot be opened or is gone; 130
     after Ctrl-C.
     """
     from i7000.cli import proxying  # noqa: PLC0415 - what it needs may not be there
     from i7000.cli.faults import read_faults  # noqa: PLC0415
     from i7000.cli.serving import read_place  # noqa: PLC0415
-    from i7000.device import Uart  # noqa: PLC0415
 
-    if not target.strip():
-        raise UsageError("give a target, such as /dev/ttyUSB0")
-    form = cast(CharacterFormat, member(character_format, CharacterFormat))
-    try:
-        uart = Uart(baud, parity=form.parity, stop_bits=form.stop_bits)
-    except InvalidValueError as refusal:
-        raise UsageError(as_written(refusal, "--baud", str(baud))) from None
+    if target.startswith("sim:"):
+        raise UsageError("simulated modules have faults of their own: i7000 simulate --fault")
     places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     proxied = proxying.Proxied(
         target,
-        uart,
+        line.settings(),
         read_faults(fault),
         seed,
         pty or not places,
         tuple(places),
         view,
         control,
+        recording,
     )
     return proxying.run(proxied, Printer())

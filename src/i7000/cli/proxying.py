@@ -5,25 +5,28 @@ import signal
 from contextlib import AsyncExitStack
 from functools import partial
 from pathlib import Path
+from time import time
 
 from attrs import frozen
 from rich.text import Text
 
 from i7000.cli.control import Control, follow_input, listening
 from i7000.cli.outlet import Outlet
+from i7000.cli.port import opened as opened_port
+from i7000.cli.recorded import RecordOptions, both, recorded
 from i7000.cli.serving import Place, ended_by_signals, handlers_kept, never_held_up, open_places, show_answer
 from i7000.cli.text import Printer, escaped
+from i7000.cli.words import LineError
 from i7000.device import Uart
+from i7000.link import LinkError, Port
 from i7000.recording.records import Carried
+from i7000.settings import LineSettings
 from i7000.simulator.faults import Faults
 from i7000.simulator.proxy import Proxy
-from i7000.simulator.target import Target, TargetError, open_port
+from i7000.simulator.target import Target
 from i7000_cli import FAILED, INTERRUPTED
 
-__all__ = ["NO_LINK", "Proxied", "run"]
-
-NO_LINK = 3
-"""The exit code if the target cannot be opened, or is gone."""
+__all__ = ["Proxied", "carried_line", "run"]
 
 
 @frozen
@@ -31,7 +34,7 @@ class Proxied:
     """What a proxy does, and the ports to it."""
 
     target: str
-    uart: Uart
+    line: LineSettings
     faults: Faults
     seed: int
     pty: bool
@@ -39,39 +42,48 @@ class Proxied:
     view: str
     control: str | None
     """Where commands come from: ``-`` is standard input, else the path of a socket; None is nowhere."""
+    recording: RecordOptions
 
 
 def run(proxied: Proxied, printer: Printer) -> int:
     """Serve hosts until a signal or ``quit``; the ports are printed first.
 
-    Errors: `OSError` or `UsageError` if a port cannot be opened.
+    Errors: `OSError` or `UsageError` if a port cannot be opened; `LineError` if the target cannot, or is lost.
     """
-    with handlers_kept(), never_held_up(printer, proxied.view) as out:
+    with (
+        opened_port(proxied.target, proxied.line) as port,
+        handlers_kept(),
+        never_held_up(printer, proxied.view) as out,
+    ):
         try:
-            came = asyncio.run(_run(proxied, printer, out))
-        except TargetError as error:
-            printer.error(error)
-            return NO_LINK
+            came = asyncio.run(_run(proxied, port, printer, out))
+        except LinkError as error:
+            raise LineError(error) from None
     if out.failed:
         return FAILED
     return INTERRUPTED if signal.SIGINT in came else 0
 
 
-async def _run(proxied: Proxied, printer: Printer, out: Outlet) -> set[int]:
+async def _run(proxied: Proxied, port: Port, printer: Printer, out: Outlet) -> set[int]:
     """Return the signals that ended the proxy."""
-    port = await asyncio.to_thread(open_port, proxied.target, proxied.uart)
     async with AsyncExitStack() as opened:
         target = Target(port)
         opened.push_async_callback(target.close)
         proxy = Proxy(
             target.write,
             target.tune,
-            uart=proxied.uart,
+            uart=Uart.of(proxied.line),
             faults=proxied.faults,
             seed=proxied.seed,
-            observe=partial(_show, printer, out) if proxied.view == "lines" else None,
             report=printer.error,
         )
+        show = partial(_show, printer, out) if proxied.view == "lines" else None
+        write = opened.enter_context(
+            recorded(
+                proxied.recording, program="i7000 proxy", target=proxied.target, began=time(), report=printer.error
+            )
+        )
+        proxy.observe = both(show, write)
         came = opened.enter_context(ended_by_signals(proxy))
         places = await open_places(proxied.places, proxy, opened, pseudo_terminal=proxied.pty)
         for place in places:

@@ -15,6 +15,7 @@ from i7000.cli.asked import Asked
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
 from i7000.cli.silence import silence_cause
 from i7000.cli.station import at_words, found_words, merged
+from i7000.cli.stored import stored_settings
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
 from i7000.host.procedures import Identified, Procedure, identify
@@ -87,7 +88,7 @@ def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = No
             cause = silence_cause(open_line.line, wanted.address, wanted.tried)
         raise LineError(f"{at_words(wanted.address)} does not answer: {cause}")
     profile = _profile(wanted, found, like)
-    for words in found_words(wanted, found, profile, found.protocol):
+    for words in found_words(wanted, found, profile, open_line.run(stored_settings(found))):
         note(words)
     return Reached(open_line, wanted.address, found.protocol, profile)
 

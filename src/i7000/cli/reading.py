@@ -274,6 +274,9 @@ class _Reader:
     def _explain(self, polled: Polled, station: Station) -> None:
         """Write why there are no readings, if there are none."""
         at = at_words(polled.address)
+        if polled.report is not None and polled.answered:
+            for it in polled.report.unknown:
+                self._note(f"{at}: disabled channels are unknown, and can read as 0: {it.reason}")
         if polled.answered or station.identified:
             reason = polled.reason or next((f"channel {it.channel}: {it.error}" for it in polled.faults), "")
             if polled.report is not None and reason:

@@ -210,10 +210,12 @@ def _around(report: _Report) -> tuple[str, str, str]:
 
 
 def _value_json(value: Any) -> str:  # noqa: ANN401 - of any field
-    if value.__class__ is int:
-        return repr(value)
-    if value.__class__ is tuple and {int}.issuperset(map(type, value)):
-        return repr([*value])
+    if value.__class__ is tuple:
+        kinds = set(map(type, value))
+        if kinds == {str}:
+            return f"[{', '.join(map(_quoted, value))}]"
+        if kinds == {int}:
+            return repr([*value])
     return _json(_plain(value))
 
 

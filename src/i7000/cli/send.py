@@ -11,6 +11,8 @@ from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, Yes, asked_of
 from i7000.cli.confirm import confirmed
 from i7000.cli.frame_text import frame_lines
 from i7000.cli.message import make, refusal_words
+from i7000.cli.module import named
+from i7000.cli.numbers import integer
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
 from i7000.cli.records import json_of
@@ -73,11 +75,12 @@ def send(  # noqa: PLR0913 - each of them is an option
 
     printer = Printer(json=json)
     kinds = _kinds(name, protocol)
-    asked = _asked(target, kinds, fields, (protocol, line, asking, module))
+    address = _address(kinds, fields)
+    asked = asked_of(target, line, asking, OneModule(address, protocol), module)
     traffic = Traffic()
 
     def ask(open_line: "OpenLine") -> int:
-        profile, spoken = _profile(open_line, asked, kinds, printer)
+        profile, spoken = _profile(open_line, asked, kinds, address, printer)
         command = _command(kinds[spoken], fields, profile)
         danger = danger_of(command)
         if danger is not None:
@@ -113,23 +116,19 @@ def _kinds(name: str, protocol: ProtocolChoice) -> dict[Protocol, type[Query[Any
     return found
 
 
-def _asked(
-    target: str,
-    kinds: dict[Protocol, type[Query[Any]]],
-    fields: tuple[str, ...],
-    options: tuple[ProtocolChoice, LineOptions, AskOptions, Module],
-) -> Asked:
-    """Return the module that a command goes to.
+def _address(kinds: dict[Protocol, type[Query[Any]]], fields: tuple[str, ...]) -> str | None:
+    """Return the address of the module that a command goes to, as it is written; None for a broadcast.
 
-    Errors: `UsageError`.
+    Errors: `UsageError` if it is missing or no number.
     """
-    protocol, line, asking, module = options
     if _is_broadcast(kinds):
-        return asked_of(target, line, asking, OneModule(None, protocol), module)
-    given = dict(field.partition("=")[::2] for field in fields)
-    if "address" not in given:
+        return None
+    address = dict(field.partition("=")[::2] for field in fields).get("address")
+    if address is None:
         raise UsageError(f"{next(iter(kinds.values())).__name__} needs address=..., such as address=1")
-    return asked_of(target, line, asking, OneModule(given["address"], protocol), module)
+    with named(f"address={address}"):
+        number = integer(address)
+    return None if number == modbus.BROADCAST and Protocol.DCON not in kinds else address
 
 
 def _is_broadcast(kinds: dict[Protocol, type[Query[Any]]]) -> bool:
@@ -137,7 +136,7 @@ def _is_broadcast(kinds: dict[Protocol, type[Query[Any]]]) -> bool:
 
 
 def _profile(
-    open_line: "OpenLine", asked: Asked, kinds: dict[Protocol, type[Query[Any]]], printer: Printer
+    open_line: "OpenLine", asked: Asked, kinds: dict[Protocol, type[Query[Any]]], address: str | None, printer: Printer
 ) -> tuple[Profile, Protocol]:
     """Return the profile of the module, and the protocol that it speaks: as given, or else the module is asked.
 
@@ -153,7 +152,7 @@ def _profile(
         availability = kinds[Protocol.DCON].availability
         profile = next(it for it in map(Profile, Model) if availability not in it.refused)
         return evolve(profile, checksum=bool(wanted.given.checksum)), Protocol.DCON
-    if wanted.address == modbus.BROADCAST and Protocol.DCON not in kinds:
+    if address is None:
         raise UsageError("address 0 is a broadcast to all modules: give --model, of which the registers are")
     there = reach(open_line, asked, printer.note)
     return there.profile, _spoken(kinds, (there.protocol,), there.profile)

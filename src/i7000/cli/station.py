@@ -13,6 +13,7 @@ from attrs import define, evolve, fields, frozen
 
 from i7000 import LineSettings, Profile, Protocol, describe
 from i7000.cli.silence import protocol_words
+from i7000.cli.stored import Stored, stored_settings
 from i7000.cli.wanted import Wanted
 from i7000.dissect import Fact, Known
 from i7000.dissect.known import fact_words
@@ -25,8 +26,8 @@ from i7000.link import Line
 __all__ = ["Polled", "Station", "at_words", "found_words", "merged"]
 
 _SILENT = "no answer"
-_FEW = 1
-"""The most retries to a module that did not answer a quick look."""
+_TRIED = 2
+"""The retries that are made otherwise: the quick look before, and the search for the cause of a silence after it."""
 _FIRST_REST = 2.0
 _LONGEST_REST = 60.0
 """Seconds for which a module that does not say what it is is left alone, at first and at most."""
@@ -94,7 +95,7 @@ class Station:
             protocols = (place.protocol,)
             checksum = place.checksum if place.protocol is Protocol.DCON else checksum
         else:
-            policy = evolve(policy, retries=min(policy.retries, 0 if self.pause else _FEW))
+            policy = evolve(policy, retries=0 if self.pause else max(0, policy.retries - _TRIED))
         found = line.run(identify(wanted.address, protocols=protocols, checksum=checksum, policy=policy))
         self.pause = min(max(2 * self.pause, _FIRST_REST), _LONGEST_REST)
         self.again = monotonic() + self.pause
@@ -109,7 +110,9 @@ class Station:
             return self._not_read(f"{'; '.join(found.reasons)}: give --model")
         self.profile = profile
         self.protocol = wanted.protocols[0] if found.protocol is None else found.protocol
-        return tuple(found_words(wanted, found, profile, self.protocol)) if self.answered else ()
+        if not self.answered:
+            return ()
+        return tuple(found_words(wanted, found, profile, line.run(stored_settings(found))))
 
     def _not_read(self, reason: str) -> tuple[str, ...]:
         """Remember why the module is not read; it is said once."""
@@ -166,18 +169,18 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
     return ((it.name, value) for it in fields(Known) if (value := getattr(known, it.name)) not in (None, ()))
 
 
-def found_words(wanted: Wanted, found: Identified, profile: Profile, spoken: Protocol) -> Iterator[str]:
+def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
     models = " or ".join(candidate.model.value for candidate in found.candidates) or profile.model.value
     read_as = f", read as {profile.model.value}" if len(found.candidates) > 1 else ""
     version = found.known.firmware or found.version
     firmware = f" {version}" if version else ""
-    protocol = protocol_words(spoken, checksum=profile.checksum)
+    protocol = protocol_words(found.protocol or Protocol.DCON, checksum=profile.checksum)
     reasons = f" ({'; '.join(found.reasons)})" if found.reasons else ""
     yield f"{at}: {models}{firmware}{read_as}, {protocol}{reasons}"
-    if found.stored_address is not None:
-        yield f"{at}: it is in INIT mode; the stored address is {describe.address(found.stored_address)}"
+    if stored is not None:
+        yield f"{at}: it is {stored.words()}"
     if wanted.given.model and found.candidates and wanted.given.model not in {it.model for it in found.candidates}:
         yield f"{at}: it is read as {wanted.given.model.value}, as given, but it answers as {models}"
     learned = dict(_facts(found.known))

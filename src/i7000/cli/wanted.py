@@ -4,6 +4,7 @@ from typing import Literal
 
 from attrs import frozen
 
+from i7000 import describe
 from i7000.cli.options import Module, address_of
 from i7000.cli.words import UsageError
 from i7000.dissect import Known
@@ -11,6 +12,7 @@ from i7000.settings import Protocol
 
 __all__ = ["ProtocolChoice", "Wanted", "wanted"]
 
+_MODBUS_ADDRESSES = range(1, 248)
 ProtocolChoice = Literal["auto", "dcon", "rtu"]
 _PROTOCOLS = {
     "auto": (Protocol.DCON, Protocol.MODBUS_RTU),
@@ -52,7 +54,11 @@ def wanted(addresses: tuple[str, ...], module: Module, protocol: ProtocolChoice)
         spoken = protocols.get(number, protocols.get(None))
         if spoken is not None and spoken not in _PROTOCOLS[protocol]:
             raise UsageError(f"--protocol {protocol}: --model says another protocol for address {number}")
-        found.append(Wanted(number, given, _spoken(given, protocol) if spoken is None else (spoken,)))
+        tried = _spoken(given, protocol) if spoken is None else (spoken,)
+        tried = tuple(it for it in tried if it is Protocol.DCON or number in _MODBUS_ADDRESSES)
+        if not tried:
+            raise UsageError(f"address {describe.address(number)}: by Modbus, an address is 1..247")
+        found.append(Wanted(number, given, tried))
     return tuple(found)
 
 

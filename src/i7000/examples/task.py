@@ -2,7 +2,7 @@
 
 import sys
 from argparse import ArgumentParser
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 
 from attrs import evolve, field, frozen
@@ -79,7 +79,7 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
 
 
 @contextmanager
-def failures_said() -> Iterator[None]:
+def failures_said() -> Generator[None, None, None]:
     """End the program with the reason if the target is invalid, or if its port cannot be opened or disappears."""
     try:
         yield

@@ -21,10 +21,33 @@ _LONGEST = 3600.0
 class Port(Protocol):
     """The methods and attributes of `serial.Serial` that a line uses."""
 
-    timeout: float | None
-    baudrate: int
-    parity: str
-    stopbits: float
+    @property
+    def timeout(self) -> float | None:
+        """The seconds that a read waits; None is for ever."""
+
+    @timeout.setter
+    def timeout(self, seconds: float | None, /) -> None: ...
+
+    @property
+    def baudrate(self) -> int:
+        """The bits per second."""
+
+    @baudrate.setter
+    def baudrate(self, rate: int, /) -> None: ...
+
+    @property
+    def parity(self) -> str:
+        """The parity: ``N``, ``E`` or ``O``."""
+
+    @parity.setter
+    def parity(self, parity: str, /) -> None: ...
+
+    @property
+    def stopbits(self) -> float:
+        """The number of stop bits: 1 or 2."""
+
+    @stopbits.setter
+    def stopbits(self, count: int, /) -> None: ...
 
     @property
     def in_waiting(self) -> int:

@@ -76,7 +76,7 @@ def _header(text: TextIO, names: Collection[str]) -> tuple[int, list[str]]:
         if header.count(name) != 1:
             found = ", ".join(header)[:_SHOWN] or "none"
             raise InvalidValueError(
-                "columns", header, f"one of them {name}", "", f"line {line}: the columns are {found}"
+                "columns", header, f"exactly one of them must be {name}", "", f"line {line}: the columns are {found}"
             )
     return line, header
 

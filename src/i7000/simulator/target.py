@@ -11,61 +11,45 @@ from queue import Full, Queue
 from threading import Thread
 from typing import Any
 
-import serial
-from serial import rfc2217
-
 from i7000.device import Uart
+from i7000.errors import I7000Error
+from i7000.link.errors import LinkError
+from i7000.link.port import Port, close, named, read, write
 
-__all__ = ["Target", "TargetError", "open_port"]
+__all__ = ["Target"]
 
 _MOST_WAITING = 256
 """The maximum number of writes that wait for the port."""
 _LOOK = 0.1
 """The interval in seconds at which the reader looks whether it is to end."""
-_WRITE_TIMEOUT = 5.0
-_STOP_BITS = {1: serial.STOPBITS_ONE, 1.5: serial.STOPBITS_ONE_POINT_FIVE, 2: serial.STOPBITS_TWO}
+_PATIENCE = 6.0
+"""The seconds that the end waits for a thread, which a port can hold up for a little less."""
 
 
-class TargetError(OSError):
-    """A port that cannot be opened, or that is gone; the text names it and the reason."""
-
-
-def open_port(target: str, uart: Uart) -> Any:  # noqa: ANN401 - pyserial has no type for all of its ports
-    """Open a serial device, or a URL of pyserial.
-
-    Errors: `TargetError`.
-    """
+def _tune(port: Any, uart: Uart) -> None:  # noqa: ANN401 - `bytesize` is not an attribute of every port
+    settings = {"baudrate": uart.rate, "bytesize": uart.data_bits, "parity": uart.parity, "stopbits": uart.stop_bits}
     try:
-        port: Any = serial.serial_for_url(target, do_not_open=True)
-        port.timeout = _LOOK
-        if not isinstance(port, rfc2217.Serial):  # which refuses such a limit
-            port.write_timeout = _WRITE_TIMEOUT
-        _tune(port, uart)
-        port.open()
-    except Exception as error:  # noqa: BLE001 - pyserial lets errors of termios and of sockets through
-        raise TargetError(f"{target}: {getattr(error, 'strerror', None) or error}") from None
-    return port
-
-
-def _tune(port: Any, uart: Uart) -> None:  # noqa: ANN401 - as above
-    port.baudrate, port.bytesize = uart.rate, uart.data_bits
-    port.parity, port.stopbits = uart.parity, _STOP_BITS[uart.stop_bits]
+        for name, value in settings.items():
+            if getattr(port, name, value) != value:
+                setattr(port, name, value)
+    except Exception as error:
+        raise LinkError(f"{named(port)}: the port cannot be set to {uart}: {error}") from error
 
 
 class Target:
     """An open port in use by a loop."""
 
-    def __init__(self, port: Any) -> None:  # noqa: ANN401 - as above
+    def __init__(self, port: Port) -> None:
         """Take an open port; nothing is read or written before `start`."""
         self._port = port
         self._loop = asyncio.get_running_loop()
         self._received: Callable[[bytes], None] = lambda _: None
-        self._lost: Callable[[TargetError], None] = lambda _: None
+        self._lost: Callable[[Exception], None] = lambda _: None
         self._ended = False
         self._waiting: Queue[Callable[[], object] | None] = Queue(_MOST_WAITING)
         self._threads: list[Thread] = []
 
-    def start(self, received: Callable[[bytes], None], lost: Callable[[TargetError], None]) -> None:
+    def start(self, received: Callable[[bytes], None], lost: Callable[[Exception], None]) -> None:
         """Start to read and write; `received` and `lost` are called in the loop, `lost` when the port is gone."""
         self._received, self._lost = received, lost
         self._threads += [Thread(target=run, name="i7000 port", daemon=True) for run in (self._read, self._write)]
@@ -74,7 +58,7 @@ class Target:
 
     def write(self, data: bytes) -> bool:
         """Write bytes soon; return False, and drop them, if too much waits."""
-        return self._put(lambda: self._port.write(data))
+        return self._put(lambda: write(self._port, data))
 
     def tune(self, uart: Uart) -> bool:
         """Change the line settings, after what waits is written; return False if too much waits."""
@@ -96,16 +80,15 @@ class Target:
 
     def _end(self) -> None:
         for thread in self._threads:
-            thread.join(_WRITE_TIMEOUT)
-        with suppress(OSError, ValueError):
-            self._port.close()
+            thread.join(_PATIENCE)
+        close(self._port)
 
     def _read(self) -> None:
         with suppress(RuntimeError):  # The loop has ended.
             while not self._ended:
                 try:
-                    data = self._port.read(max(1, min(self._port.in_waiting, 4096)))
-                except Exception as error:  # noqa: BLE001 - pyserial raises many kinds for a port that is gone
+                    data = read(self._port, _LOOK)
+                except I7000Error as error:
                     self._fail(error)
                     return
                 if data:
@@ -120,13 +103,11 @@ class Target:
                 return
             try:
                 do()
-            except Exception as error:  # noqa: BLE001 - as above
+            except I7000Error as error:
                 self._fail(error)
                 return
 
-    def _fail(self, error: Exception) -> None:
-        if self._ended:
-            return
-        name = getattr(self._port, "name", None) or getattr(self._port, "port", "the port")
-        with suppress(RuntimeError):  # The loop has ended.
-            self._loop.call_soon_threadsafe(self._lost, TargetError(f"{name}: {error}"))
+    def _fail(self, error: I7000Error) -> None:
+        if not self._ended:
+            with suppress(RuntimeError):  # The loop has ended.
+                self._loop.call_soon_threadsafe(self._lost, error)

@@ -261,13 +261,23 @@ def test_without_the_firmware_a_refusal_is_only_a_doubt() -> None:
     assert None is found.version
 
 
-def test_the_name_of_another_product_has_no_candidates() -> None:
-    found, steps = run(identify(0x01), by_dcon(name="7050D", code=0x40))
+def test_a_name_that_begins_like_those_of_a_series_makes_the_others_less_likely() -> None:
+    runner = Runner.on(evolve(factory(Model.I_7017), name="7017-1"))
+
+    found = runner.run(identify(0x01, policy=QUICK))
+
+    assert models(found)[0] == "I-7017"
+    assert all("7017-1 is not of its series" in it.doubts for it in found.candidates if it.model.series != "7017")
+
+
+@pytest.mark.parametrize("name", ["7050D", "87017R"])
+def test_the_name_of_another_product_has_no_candidates(name: str) -> None:
+    found, steps = run(identify(0x01), by_dcon(name=name, code=0x40))
 
     assert found.candidates == ()
     assert (found.model, found.profile) == (None, None)
-    assert unknown(found)["model"] == unknown(found)["types"] == "7050D is the name of another product"
-    assert found.name == "7050D"
+    assert unknown(found)["model"] == unknown(found)["types"] == f"{name} is the name of another product"
+    assert found.name == name
     assert len(commands(steps)) == 4
 
 

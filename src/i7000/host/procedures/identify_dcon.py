@@ -26,8 +26,8 @@ from i7000.type_codes import MIXED, TypeCode
 
 __all__ = ["identify_by_dcon"]
 
-_OTHER_PRODUCT = re.compile(r"[0-9]{4}[A-Z]*")
-"""The form of the names that modules have from the factory."""
+_FACTORY_NAME = re.compile(r"[0-9]{4,5}[A-Z]*")
+"""The form of the names that modules of this maker have from the factory."""
 
 _PROBES: tuple[Callable[[int], dcon.Command[Any]], ...] = (
     dcon.ReadProtocol,
@@ -101,7 +101,10 @@ def _by_name(name: str | None) -> Evidence:
     named = [model for model in Model if model.factory_name == name]
     if named:
         return Evidence.of(named, f"{name} is the factory name of {' and '.join(model.value for model in named)}")
-    if _OTHER_PRODUCT.fullmatch(name) and name[:4] not in {model.series for model in Model}:
+    others = [model for model in Model if model.series != name[:4]]
+    if len(others) < len(Model):
+        return Evidence.of(Model, f"{name} is no factory name").doubt(others, f"{name} is not of its series")
+    if _FACTORY_NAME.fullmatch(name):
         return Evidence.of((), f"{name} is the name of another product")
     return Evidence.of(Model, f"{name} is no factory name")
 
