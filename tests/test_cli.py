@@ -308,7 +308,7 @@ def test_an_argument_too_many_is_refused_with_what_may_be_meant(run: Run) -> Non
     assert result.code == 2
 
 
-@pytest.mark.parametrize("command", ["", "decode", "encode", "commands"])
+@pytest.mark.parametrize("command", ["", "decode", "encode", "commands", "backup", "diff", "restore", "set", "send"])
 def test_help_is_there(run: Run, command: str) -> None:
     result = run(*command.split(), "--help")
 

@@ -7,13 +7,15 @@ import pytest
 from attrs import evolve
 
 from i7000 import BaudRate, Filter, LineSettings, Model, Protocol, ReportSettings, TypeCode
-from i7000.host.procedures import settings_of
+from i7000.cli.changing import code_of
+from i7000.cli.setting_text import restored_lines
+from i7000.host.procedures import Restored, Status, settings_of
 from i7000.simulator.faults import Faults
 from i7000.simulator.simulator import Simulated
 from tests.each import each
 from tests.simulator.running import module
 from tests.terminal import Run
-from tests.workbench import EVERY_MODULE, Bench
+from tests.workbench import DEAD, EVERY_MODULE, Bench
 
 KELVIN = module(Model.M_7019R, type_codes=(TypeCode.K,) * 8)
 
@@ -145,6 +147,38 @@ def test_what_cannot_be_set_is_refused_before_anything_is_written(
 
     assert message in told.err.splitlines()[-1]
     assert (told.code, told.out, bench.eeprom) == (2, "", KELVIN.eeprom)
+
+
+def test_what_was_so_already_says_so(workbench: Bench) -> None:
+    told = workbench(KELVIN)("set", "cjc_enabled=yes")
+
+    assert told.out == f"{'cjc_enabled':<24} {'yes':<24} already so\n"
+    assert told.code == 0
+
+
+def test_what_reads_back_as_another_value_says_so() -> None:
+    result = Restored("filter", Status.NOT_VERIFIED, "reject_50_hz", "reject_60_hz", "reject_60_hz", "acknowledged")
+
+    (line,) = restored_lines(result, Model.M_7019R)
+
+    assert "".join(text for text, _ in line).endswith("not verified: it reads back as reject_60_hz; acknowledged")
+    assert code_of([result]) == 1
+
+
+def test_a_module_that_stops_answering_is_not_listed(workbench: Bench) -> None:
+    bench = workbench(module(Model.I_7018))
+    seen: list[bytes] = []
+
+    def look(wire: bytes) -> None:
+        seen.append(wire)
+        if seen.count(b"$01F\r") > 1:
+            bench.port.faults = DEAD
+
+    bench.port.before_write = look
+    told = bench("set", "--list")
+
+    assert (told.code, told.out) == (3, "")
+    assert told.err.splitlines()[-1].endswith("stopped answering")
 
 
 # --- what could lose the module ---------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ breaks it off, and then that setting is in doubt.
 """
 
 from signal import SIGINT
+from typing import Any
 
 from i7000 import describe
 from i7000.cli.asked import LEFT_CHANGED
@@ -56,8 +57,6 @@ class Changes:
         there, ending = self.there, self.there.open.ending
         try:
             restoration = there.open.line.run(procedure, self._tell)
-            if ending.number:
-                raise KeyboardInterrupt  # noqa: TRY301 - as if it had come a moment earlier
         except KeyboardInterrupt:
             return self._stopped("stopped", 128 + (ending.number or SIGINT))
         except LinkError as error:
@@ -75,14 +74,14 @@ class Changes:
     def _changed(self) -> list[Restored]:
         return [result for result in self.results if result.status in _CHANGED]
 
-    def _tell(self, value: object) -> None:
+    def _tell(self, value: Any) -> None:  # noqa: ANN401 - `Writing` or `Restored`
         if isinstance(value, Writing):
             self._writing = value.names
-        elif isinstance(value, Restored):
-            self._writing = tuple(name for name in self._writing if name != value.name)
-            self._show(value)
-            if self.there.open.ending.number and not self._writing:
-                raise KeyboardInterrupt
+            return
+        self._writing = tuple(name for name in self._writing if name != value.name)
+        self._show(value)
+        if self.there.open.ending.number and not self._writing:
+            raise KeyboardInterrupt
 
     def _show(self, result: Restored) -> None:
         self.results.append(result)

@@ -20,19 +20,20 @@ class Traffic:
         self.notes: list[str] = []
         self.sent = 0
         """How often the request was sent."""
-        self._line: Line | None = None
+        self._begun = False
+        self._line = Line()
         self._protocol = Protocol.DCON
         self._began = self._heard_at = 0.0
 
     def begin(self, address: int | None, profile: Profile, protocol: Protocol) -> None:
         """Keep what comes from now on."""
         modules = {} if address is None else {address: Known.of(profile)}
-        self._protocol = protocol
+        self._begun, self._protocol = True, protocol
         self._line = Line(Knowledge.given(Known.of(profile), modules), protocol)
 
     def observe(self, observed: Observed) -> None:
         """Take what happens on the line."""
-        if self._line is None:
+        if not self._begun:
             return
         if isinstance(observed, Written):
             self._began = self._began or observed.at
@@ -49,9 +50,8 @@ class Traffic:
 
     def end(self, at: float | None = None) -> None:
         """Take what was heard as complete."""
-        if self._line is not None:
-            self._line, found = flush(self._line, sent=False)
-            self._keep(found, self._heard_at if at is None else at, sent=False)
+        self._line, found = flush(self._line, sent=False)
+        self._keep(found, self._heard_at if at is None else at, sent=False)
 
     def _keep(self, found: tuple[Heard, ...], at: float, *, sent: bool) -> None:
         for heard in found:
