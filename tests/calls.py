@@ -154,6 +154,8 @@ _SCANNED = ((i7000.LineSettings(),), (0x01,), (i7000.Protocol.DCON,), (False,))
 _OPEN = host.send(_BUS, _READ, _I7018, 1.0)
 
 _EEPROM = device.factory(Model.M_7019R)
+_SNAPSHOT = procedures.Snapshot(Model.I_7018, settings={"filter": "reject_50_hz"}, unread={"address": "no answer"})
+_RESTORED = procedures.Restored("filter", procedures.Status.ALREADY, "reject_50_hz")
 _FACT = dissect.Fact("types", (TypeCode.K,))
 _HEARD_OF = dissect.Module()
 _KNOWLEDGE = dissect.Knowledge(_HEARD_OF, {0x01: _HEARD_OF})
@@ -250,6 +252,23 @@ CALLS = (
     call("procedures.read", 0x01, _I7018, protocol=i7000.Protocol.DCON, mask=0xFF, policy=host.Policy()),
     call("procedures.scan", *_SCANNED, policy=host.Policy()),
     call("procedures.scan_time", *_SCANNED, policy=host.Policy()),
+    call("procedures.diff", _SNAPSHOT, procedures.Snapshot(Model.I_7018)),
+    call("procedures.find_setting", "filter", _I7018, i7000.Protocol.DCON),
+    call("procedures.hazard_of", "type_code.3"),
+    call(
+        "procedures.restore", 0x01, _I7018, _SNAPSHOT, ("filter",), protocol=i7000.Protocol.DCON,
+        line=i7000.LineSettings(),
+    ),
+    call(
+        "procedures.set_one", 0x01, _I7018, "filter", "reject_50_hz", protocol=i7000.Protocol.DCON,
+        line=i7000.LineSettings(),
+    ),
+    call("procedures.settings_of", _I7018, i7000.Protocol.DCON),
+    call("procedures.snapshot", 0x01, _I7018, i7000.Protocol.DCON),
+    call("procedures.Restoration.of", "filter", on=procedures.Restoration((_RESTORED,), 0x01, _I7018)),
+    call("procedures.Snapshot", **_fields_of(_SNAPSHOT)),
+    call("procedures.Snapshot.from_json", _SNAPSHOT.to_json(), on=procedures.Snapshot),
+    call("procedures.Snapshot.to_json", on=_SNAPSHOT),
     call("device.Bus", (_MODULE,), clock=1.0),
     call("device.Bus.step", b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
     call("device.Bus.hear", device.Ear(), b"#010\r", (_SIGNALS,), 1.0, on=_MODULES),
@@ -312,6 +331,7 @@ LEFT_OUT = {
             "host.TimedOut", "host.Transmit", "procedures.Result", "procedures.Tell",
             "procedures.Candidate", "procedures.ChannelFault", "procedures.Finding", "procedures.Identified",
             "procedures.Place", "procedures.Progress", "procedures.Report", "procedures.Scanned", "procedures.Unknown",
+            "procedures.Change", "procedures.Restoration", "procedures.Restored", "procedures.Setting",
             "device.Heard", "device.Record", "dissect.ChannelReading",
             "dissect.Field", "dissect.Fit", "dissect.Found", "dissect.Heard", "dissect.Item",
             "dissect.Meaning", "dissect.Piece", "dissect.Place",

@@ -7,6 +7,7 @@ import signal
 import socket
 import sys
 from functools import partial
+from pathlib import Path
 from threading import Event
 from time import sleep
 
@@ -245,10 +246,11 @@ def test_an_invalid_port_is_refused(text: str) -> None:
         read_place("socket", text)
 
 
-def test_what_is_not_installed_is_shown(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "i7000.simulator.rfc2217", None)
+def test_what_is_not_installed_is_shown(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(sys.modules, "filelock", None)
+    monkeypatch.delitem(sys.modules, "i7000.simulator.memory", raising=False)
 
-    told = run("simulate", "--model", KELVIN, "--rfc2217", "0")
+    told = run("simulate", "--model", KELVIN, "--tcp", "0", "--eeprom", str(tmp_path / "bus.json"))
 
     assert told.code == 2
     assert 'pip install "i7000[simulator]"' in told.err

@@ -184,6 +184,18 @@ def test_facts_can_be_dropped() -> None:
     assert module.without(["types", "nothing"]).known == Known(checksum=True)
 
 
+def test_types_of_more_channels_go_with_the_connecting_mode_that_has_them() -> None:
+    types = (None,) * 19 + (TypeCode.V_10,)
+    facts = {
+        "single_ended": Fact("single_ended", True, Origin.LEARNED, "frame 2"),
+        "types": Fact("types", types, Origin.LEARNED, "frame 4"),
+    }
+    module = Module(Known(Model.I_7017Z), facts)
+
+    assert module.known.types == types
+    assert module.without(["single_ended"]).known == Known(Model.I_7017Z)
+
+
 def test_no_module_is_given_that_cannot_be() -> None:
     with pytest.raises(EncodeError):
         Module(Known(Model.I_7018, types=(V_10,)))

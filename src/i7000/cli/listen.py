@@ -1,7 +1,6 @@
 """``i7000 listen``: what is said on a line, decoded as it comes."""
 
 import sys
-from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
@@ -10,6 +9,7 @@ from i7000.cli.listening import Listening, run
 from i7000.cli.message import DCON, MODBUS
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
 from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
+from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError, near
 from i7000.dissect import Line
@@ -28,10 +28,9 @@ def listen(  # noqa: PLR0913 - each of them is an option
         Literal["auto", "dcon", "rtu"], Parameter(help="The protocol on the line; auto recognizes both, even mixed.")
     ] = "auto",
     seconds: Annotated[float | None, Parameter(help="Stop after so many seconds; without it, at Ctrl-C.")] = None,
-    record: Annotated[Path | None, Parameter(help="Record all frames, as JSON lines, to a new file.")] = None,
-    pcap: Annotated[Path | None, Parameter(help="Record all frames for Wireshark (pcapng), to a new file.")] = None,
     json: Json = False,
     schema: Annotated[bool, Parameter(help="Print the JSON Schema of --record and exit.", negative="")] = False,
+    recording: RecordOptions = NOWHERE,
     line: LineOptions = DEFAULT_LINE,
     module: Module = UNKNOWN,
 ) -> int:
@@ -66,8 +65,7 @@ def listen(  # noqa: PLR0913 - each of them is an option
         frozenset(map(address_of, address)),
         frozenset(only),
         _LONGEST if seconds is None else seconds,
-        record,
-        pcap,
+        recording,
     )
     return run(listening, Printer(json=json))
 

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, redirect_stdout
 from datetime import UTC, datetime
 from functools import partial
-from pathlib import Path
 from time import monotonic, time
 from typing import IO, cast
 
@@ -19,12 +18,13 @@ from i7000.cli.frame_text import frame_lines
 from i7000.cli.outlet import Outlet, missed_words
 from i7000.cli.port import ended_by_signals, opened
 from i7000.cli.readers import Read
+from i7000.cli.recorded import RecordOptions, Write, recorded
 from i7000.cli.records import json_of
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
 from i7000.dissect import Direction, Line
 from i7000.dissect.timing import TimedHeard, TimedLine, flush_at, hear_at
-from i7000.recording import Capture, Carried, Recorder
+from i7000.recording import Carried
 from i7000.settings import LineSettings, Protocol
 from i7000_cli import FAILED
 
@@ -46,14 +46,11 @@ class Listener:
         self,
         line: Line,
         began: float,
-        *,
-        recorder: Recorder | None = None,
-        capture: Capture | None = None,
+        write: Write | None,
     ) -> None:
         self.timed = TimedLine(line)
         self._began = began
-        self._recorder = recorder
-        self._capture = capture
+        self._write = write
 
     def hear(self, data: bytes, now: float) -> Iterator[Read]:
         """Take bytes that came at `now`, and yield the frames that are complete."""
@@ -69,11 +66,8 @@ class Listener:
         for it in found:
             heard = evolve(it.heard, notes=(*it.heard.notes, *it.notes))
             sent = _SENT[heard.direction]
-            carried = Carried(it.began, heard.wire, sent, heard.protocol, None, it.notes)
-            if self._recorder:
-                self._recorder.write(carried)
-            if self._capture:
-                self._capture.write(carried)
+            if self._write:
+                self._write(Carried(it.began, heard.wire, sent, heard.protocol, None, it.notes))
             time = datetime.fromtimestamp(self._began + it.began, UTC)
             after = "" if it.after is None else f"+{it.after:.3f} s"
             text = f"{time:%H:%M:%S}.{time.microsecond // 1000:03}  {after:>12}  {_ARROWS[sent]} {_frame(it)}"
@@ -102,8 +96,7 @@ class Listening:
     names: frozenset[str]
     """The names of the messages to show; all if there are none."""
     seconds: float
-    record: Path | None
-    pcap: Path | None
+    recording: RecordOptions
 
     def shows(self, read: Read) -> bool:
         """Return whether a frame is shown; one that cannot be decoded has no name."""
@@ -124,20 +117,16 @@ def run(listening: Listening, printer: Printer) -> int:
     with ExitStack() as stack:
         port = stack.enter_context(opened(listening.target, listening.settings))
         began, start = time(), monotonic()
-        recorder = capture = None
-        if listening.record:
-            recorder = stack.enter_context(
-                Recorder(
-                    listening.record,
-                    program="i7000 listen",
-                    target=listening.target,
-                    began=began,
-                    report=printer.error,
-                )
+        write = stack.enter_context(
+            recorded(
+                listening.recording,
+                program="i7000 listen",
+                target=listening.target,
+                began=began,
+                report=printer.error,
             )
-        if listening.pcap:
-            capture = stack.enter_context(Capture(listening.pcap, began=began, report=printer.error))
-        listener = Listener(listening.line, began, recorder=recorder, capture=capture)
+        )
+        listener = Listener(listening.line, began, write)
         out = stack.enter_context(_never_held_up(printer))
         ending = stack.enter_context(ended_by_signals())
         now = 0.0

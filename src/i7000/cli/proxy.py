@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
+from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
 
@@ -40,6 +41,7 @@ def proxy(  # noqa: PLR0913 - each of them is an option
             allow_leading_hyphen=True,
         ),
     ] = None,
+    recording: RecordOptions = NOWHERE,
     line: LineOptions = DEFAULT_LINE,
 ) -> int:
     """Put a real line behind the faults of a bad one, until Ctrl-C.
@@ -56,6 +58,9 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     * `--control` takes `fault late=0.1`, `fault off`, `fault` and `quit`, one a line, and answers each by a line that
       begins with `ok` or `error:`.
     * The lines of `--view lines` are times, `->` for requests and `<-` for answers, bytes, and faults in brackets.
+
+    `--record` writes what arrives on either side, with the faults; `i7000 decode --file` reads it. If the disk is full,
+    the recording stops, not the proxy.
 
     Exit code: 0 after `quit`, SIGTERM or SIGHUP; 2 for wrong usage; 3 if the target cannot be opened or is gone; 130
     after Ctrl-C.
@@ -76,5 +81,6 @@ def proxy(  # noqa: PLR0913 - each of them is an option
         tuple(places),
         view,
         control,
+        recording,
     )
     return proxying.run(proxied, Printer())

@@ -5,6 +5,7 @@ import signal
 from contextlib import AsyncExitStack
 from functools import partial
 from pathlib import Path
+from time import time
 
 from attrs import frozen
 from rich.text import Text
@@ -12,6 +13,7 @@ from rich.text import Text
 from i7000.cli.control import Control, follow_input, listening
 from i7000.cli.outlet import Outlet
 from i7000.cli.port import opened as opened_port
+from i7000.cli.recorded import RecordOptions, both, recorded
 from i7000.cli.serving import Place, ended_by_signals, handlers_kept, never_held_up, open_places, show_answer
 from i7000.cli.text import Printer, escaped
 from i7000.cli.words import LineError
@@ -40,6 +42,7 @@ class Proxied:
     view: str
     control: str | None
     """Where commands come from: ``-`` is standard input, else the path of a socket; None is nowhere."""
+    recording: RecordOptions
 
 
 def run(proxied: Proxied, printer: Printer) -> int:
@@ -72,9 +75,15 @@ async def _run(proxied: Proxied, port: Port, printer: Printer, out: Outlet) -> s
             uart=Uart.of(proxied.line),
             faults=proxied.faults,
             seed=proxied.seed,
-            observe=partial(_show, printer, out) if proxied.view == "lines" else None,
             report=printer.error,
         )
+        show = partial(_show, printer, out) if proxied.view == "lines" else None
+        write = opened.enter_context(
+            recorded(
+                proxied.recording, program="i7000 proxy", target=proxied.target, began=time(), report=printer.error
+            )
+        )
+        proxy.observe = both(show, write)
         came = opened.enter_context(ended_by_signals(proxy))
         places = await open_places(proxied.places, proxy, opened, pseudo_terminal=proxied.pty)
         for place in places:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000.cli.options import Texts
+from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
 
@@ -53,6 +54,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
             allow_leading_hyphen=True,
         ),
     ] = None,
+    recording: RecordOptions = NOWHERE,
 ) -> int:
     """Simulate modules on a line, until Ctrl-C.
 
@@ -91,6 +93,9 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     * `fault late=0.1 drop=0@to` changes faults as `--fault` does, `fault off` switches all off, `fault` shows them.
     * `quit` ends the simulation, and so does the end of standard input with `--control -`.
 
+    * `--record` writes commands, responses as the modules sent them, faults and changes of modules; `i7000 decode
+      --file` reads it. If the disk is full, the recording stops, not the simulation.
+
     Over RFC 2217, wrong baud rates and parities turn frames into garbage; elsewhere they do not matter. `--tcp` and
     `--rfc2217` serve 64 hosts each at a time. A host that does not read loses responses, and so does one that waits for
     1024 pieces, or 65536 bytes, of late responses. Output that nobody reads is dropped and counted:
@@ -117,5 +122,6 @@ def simulate(  # noqa: PLR0913 - each of them is an option
             tuple(places),
             view or ("live" if printer.out.is_terminal and control != "-" else "none"),
             control,
+            recording,
         )
         return simulating.run(simulated, printer)

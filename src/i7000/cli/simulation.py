@@ -19,6 +19,7 @@ from i7000.cli.keys import Prompt, pressed
 from i7000.cli.module import read_module
 from i7000.cli.operating import module_commands
 from i7000.cli.outlet import Outlet
+from i7000.cli.recorded import RecordOptions, both, recorded
 from i7000.cli.serving import Place, ended_by_signals, handlers_kept, never_held_up, open_places, show_answer
 from i7000.cli.signals import read_signals
 from i7000.cli.text import Printer
@@ -26,7 +27,8 @@ from i7000.cli.traffic import change_line, lines
 from i7000.cli.view import View
 from i7000.cli.words import UsageError
 from i7000.device import Eeprom, State
-from i7000.errors import I7000Error
+from i7000.errors import I7000Error, Noise
+from i7000.recording import Carried, Event
 from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Change, Observed
@@ -49,6 +51,7 @@ class Simulation:
     view: str
     control: str | None
     """Where commands come from: ``-`` is standard input, else the path of a socket; None is nowhere."""
+    recording: RecordOptions
 
 
 @contextmanager
@@ -139,6 +142,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
                 simulator.watch = partial(_show_change, printer, out)
             elif simulated.view == "live":
                 _show_live(simulator, control, printer, places, opened)
+            _record(simulated, simulator, printer, opened)
             if simulated.control == "-":
                 follow_input(control, partial(show_answer, printer))
             elif simulated.control is not None:
@@ -159,6 +163,40 @@ def _show_live(
     if prompt is not None:
         prompt.changed = lambda: simulator.loop.run_in_executor(None, view.refresh)
         opened.enter_context(pressed(prompt))
+
+
+def _record(simulated: Simulation, simulator: Simulator, printer: Printer, opened: AsyncExitStack) -> None:
+    """Record what is observed, beside what is shown, until `opened` is closed."""
+    write = opened.enter_context(
+        recorded(
+            simulated.recording,
+            program="i7000 simulate",
+            target=" ".join(_kind(it.eeprom) for it in simulated.modules),
+            began=simulator.began,
+            report=printer.error,
+        )
+    )
+    if write is None:
+        return
+
+    def carry(observed: Observed) -> None:
+        for carried in carried_of(observed):
+            write(carried)
+
+    def tell(change: Change) -> None:
+        write(Event(change.at, f"{change.address:02X} {change.model.value}: {', '.join(change.what)}"))
+
+    simulator.observe, simulator.watch = both(simulator.observe, carry), both(simulator.watch, tell)
+
+
+def carried_of(observed: Observed) -> Iterator[Carried]:
+    """Yield what an exchange has of a recording: the response is as the module sent it, with the faults of the line."""
+    at, protocol, client = observed.at, observed.protocol, observed.client
+    wire = observed.heard.wire if isinstance(observed.heard, Noise) else observed.heard
+    answer = observed.answer
+    yield Carried(at, wire, sent=True, protocol=protocol, place=client, notes=() if answer else observed.faults)
+    if answer is not None:
+        yield Carried(at, answer, sent=False, protocol=protocol, place=client, notes=observed.faults)
 
 
 def _has_keys() -> bool:

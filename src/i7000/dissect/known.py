@@ -291,9 +291,13 @@ class Module:
         return any(fact.doubted_by for fact in self.facts.values())
 
     def without(self, names: Iterable[str]) -> "Module":
-        """Drop facts that were learned."""
+        """Drop facts that were learned, and types that cannot be without them."""
         dropped = as_tuple("names", names)
-        return Module(self.given, {name: fact for name, fact in self.facts.items() if name not in dropped})
+        facts = {name: fact for name, fact in self.facts.items() if name not in dropped}
+        try:
+            return Module(self.given, facts)
+        except EncodeError:  # The types are of more channels than the module then has.
+            return Module(self.given, {name: fact for name, fact in facts.items() if name != "types"})
 
 
 @frozen(eq=False)

@@ -76,7 +76,8 @@ class Simulator:
         self.loop = asyncio.get_running_loop()
         self._ended: asyncio.Future[None] = self.loop.create_future()
         self._epoch = time() - monotonic()
-        self._began = self.now
+        self.began = self.now
+        """The time of its start, in seconds since 1970."""
         self._simulated = tuple(modules)
         self._sampled: tuple[int, tuple[Signals, ...]] | None = None
         self.bus = Bus(tuple([self._powered_on(module.eeprom, module) for module in self._simulated]))
@@ -89,7 +90,7 @@ class Simulator:
     @property
     def signals(self) -> tuple[Signals, ...]:
         """The signals at the inputs of each module now; unchanged until the next sample."""
-        number = int((self.now - self._began) * SAMPLES_A_SECOND)
+        number = int((self.now - self.began) * SAMPLES_A_SECOND)
         if self._sampled is None or self._sampled[0] != number:
             seconds = number / SAMPLES_A_SECOND
             self._sampled = number, tuple([module.sources.at(seconds) for module in self._simulated])
@@ -169,7 +170,7 @@ class Simulator:
         return True
 
     def _changed(self, module: State, what: tuple[str, ...], *, stored: bool = False) -> None:
-        at = self.now - self._began
+        at = self.now - self.began
         self._changes.append(Change(at, module.eeprom.address, module.eeprom.model, what, stored=stored))
 
     def report_changes(self) -> None:
@@ -182,7 +183,7 @@ class Simulator:
     def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
         """Report what modules heard, and their answer, to the observer of the line."""
         if self.observe:
-            at = self.now - self._began
+            at = self.now - self.began
             deaf = deaf_module(self.bus.modules, heard)
             self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults, deaf))
 

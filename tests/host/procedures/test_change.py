@@ -127,7 +127,11 @@ def test_what_is_not_named_stays_as_it_is(both: tuple[Eeprom, Eeprom], data: st.
     made = put(bench, taken, names)
 
     changes = diff(had, take(bench.eeprom))
-    assert {it.name for it in changes if it.before is not None and it.after is not None} <= set(names)
+    changed = {it.name for it in changes if it.before is not None and it.after is not None}
+    if "single_ended" in names:
+        changed.discard("channel_mask")  # other channels are shown then
+    assert changed <= set(names)
+    assert "channel_mask" in names or bench.eeprom.channel_mask == before.channel_mask
     assert {it.name for it in made.results if it.status is not Status.SKIPPED} <= set(names)
 
 
@@ -398,6 +402,58 @@ def test_a_watchdog_that_times_out_at_once_is_not_verified() -> None:
     assert expected == made.of("host_watchdog_enabled")
 
 
+# --- a line that breaks -----------------------------------------------------------------------------------------------
+
+
+def breaking(at: bytes, *, answered: bool) -> Any:
+    """Have the line break at a command: nothing passes after it; before its answer, or after it."""
+    broken = [False]
+
+    def spoil(wire: bytes, to_module: bool) -> list[tuple[float, bytes]]:  # noqa: FBT001 - the direction
+        passes = not broken[0] or (answered and wire == b"!01\r")
+        broken[0] |= to_module and wire.startswith(at)
+        return [(0.0, wire)] if passes else []
+
+    return spoil
+
+
+@pytest.mark.parametrize(
+    ("answered", "reason"), [(False, "no answer to the command"), (True, "no answer when it was read back")]
+)
+def test_a_setting_is_in_doubt_if_the_line_breaks_before_it_is_read_back(*, answered: bool, reason: str) -> None:
+    bench = Bench.of(module(), spoil=breaking(b"~01C0", answered=answered))
+    wanted = Snapshot(Model.M_7019R, settings={"cjc_enabled": False, "open_wire_detection": False, "address": 9})
+
+    made = put(bench, wanted, ["cjc_enabled", "open_wire_detection", "address"])
+
+    assert Restored("cjc_enabled", Status.IN_DOUBT, False, True, None, reason) == made.of("cjc_enabled")
+    for name in ("open_wire_detection", "address"):
+        assert (made.of(name).status, made.of(name).reason) == (Status.UNREAD, "the module does not answer")
+    assert module(cjc_enabled=False) == bench.eeprom
+
+
+def test_a_module_that_is_lost_by_a_change_of_its_line_is_in_doubt_at_the_old_one() -> None:
+    bench = Bench.of(module(), spoil=second(breaking(b"%0101", answered=False), b"%0101"))
+    wanted = Snapshot(Model.M_7019R, settings={"baud_rate": 38400, "checksum": True})
+
+    made = put(bench, wanted, ["baud_rate", "checksum"])
+
+    assert {Status.IN_DOUBT} == {it.status for it in made.results}
+    assert (1, None, False, LineSettings()) == (made.address, made.line, made.profile.checksum, bench.line)
+    assert BaudRate.BAUD_38400 is bench.eeprom.line_settings.baud_rate
+
+
+def second(spoil: Any, at: bytes) -> Any:
+    """Have faults begin with the second command of a kind: the first is refused without soft INIT."""
+    seen = [0]
+
+    def later(wire: bytes, to_module: bool) -> Any:  # noqa: FBT001 - the direction
+        seen[0] += to_module and wire.startswith(at)
+        return spoil(wire, to_module) if seen[0] > 1 else [(0.0, wire)]
+
+    return later
+
+
 # --- refusals ---------------------------------------------------------------------------------------------------------
 
 
@@ -470,5 +526,5 @@ def test_every_setting_has_a_result_by_its_name() -> None:
     made = put(Bench.of(module()), take(module()), ["filter"])
 
     assert {it.name for it in settings_of(Profile(Model.M_7019R), Protocol.DCON)} == {it.name for it in made.results}
-    with pytest.raises(KeyError):
+    with pytest.raises(InvalidValueError, match="there is no result for 'colour'"):
         made.of("colour")

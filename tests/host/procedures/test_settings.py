@@ -113,7 +113,7 @@ def changes_of(model: Model, protocol: Protocol) -> dict[str, tuple[Status, set[
 
 def read(setting: Setting, profile: Profile) -> Procedure[Any]:
     result: Any = yield from ask(setting.access.read(1), profile)
-    return setting.value(result.outcome.response)
+    return setting.values.plain(setting.name, setting.access.value(result.outcome.response))
 
 
 SPOKEN = [(model, protocol) for model in Model for protocol in sorted(model.protocols)]

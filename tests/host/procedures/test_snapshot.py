@@ -8,7 +8,18 @@ from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import CharacterFormat, DataFormat, Filter, Firmware, InvalidValueError, Model, Profile, Protocol, TypeCode
+from i7000 import (
+    CharacterFormat,
+    DataFormat,
+    Filter,
+    Firmware,
+    InvalidValueError,
+    Model,
+    Profile,
+    Protocol,
+    TypeCode,
+    modbus,
+)
 from i7000.device import factory
 from i7000.host.procedures.settings import settings_of
 from i7000.host.procedures.snapshot import Snapshot, snapshot
@@ -133,6 +144,36 @@ def test_reading_changes_nothing(data: st.DataObject, each: tuple[Model, Protoco
 
     assert eeprom == bench.eeprom
     assert Snapshot.from_json(taken.to_json()) == taken
+
+
+def test_a_firmware_that_is_none_is_kept_as_sent() -> None:
+    bench = Bench.of(factory(Model.M_7018))
+    odd = modbus.encode(modbus.FirmwareVersion(1, 0xFF, 0, 0))
+    bench.spoil = lambda wire, to_module: [(0.0, odd if not to_module and wire[1:3] == b"\x46\x20" else wire)]
+
+    taken = take(bench, Protocol.MODBUS_RTU, profile=Profile(Model.M_7018))
+
+    assert taken.firmware == "ff0000"
+    assert "response_delay" in taken
+
+
+def test_types_that_the_firmware_of_the_module_does_not_have_are_no_obstacle() -> None:
+    bench = Bench.of(evolve(factory(Model.I_7017, Firmware("B2.1"))))
+    profile = Profile(Model.I_7017, type_codes=(TypeCode.MA_4_20,) * 8)
+
+    taken = take(bench, Protocol.DCON, profile=profile)
+
+    assert (taken.firmware, taken["type_code"], taken.unread) == ("B2.1", "V_10", ())
+
+
+def test_without_an_answer_the_connecting_mode_is_that_of_the_profile() -> None:
+    bench = Bench.of(evolve(factory(Model.I_7017Z), single_ended=True))
+    bench.spoil = lambda wire, to_module: [] if to_module and wire.startswith(b"@") else [(0.0, wire)]
+
+    taken = take(bench, Protocol.DCON)
+
+    assert taken.unread == (("single_ended", "no answer, although the module answers other commands"),)
+    assert taken["type_code.19"] == "V_10"
 
 
 def test_an_absent_module_is_given_up_after_a_few_questions() -> None:

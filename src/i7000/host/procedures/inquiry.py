@@ -140,7 +140,7 @@ def plain_value(setting: Setting, answer: Answer) -> tuple[Plain | None, str]:
     if answer.response is None:
         return None, answer.reason
     try:
-        return setting.value(answer.response), ""
+        return setting.values.plain(setting.name, setting.access.value(answer.response)), ""
     except I7000Error as error:
         return None, f"unexpected value: {error}"
 

@@ -12,7 +12,7 @@ from i7000.arguments import as_tuple, check_int, check_type
 from i7000.errors import EncodeError
 from i7000.frozen import frozen
 from i7000.host.bus import Bus, Policy, next_deadline, receive, send
-from i7000.host.events import Ended
+from i7000.host.events import Ended, Transmit
 from i7000.message import Query, Response
 from i7000.modbus.request import LAST_ADDRESS
 from i7000.models import Model
@@ -154,13 +154,15 @@ def _silent_seconds(line: LineSettings, protocol: Protocol, checksum: bool, poli
     place = Place(line, _FACTORY_ADDRESS, protocol, checksum=checksum)
     bus: Bus[Response] = Bus[Response](line=line, policy=policy)
     now = 0.0
+    sent: list[float] = []
     bus = send(bus, place.question, place.profile, now)
     ended = False
     while not ended:
         now = _due(bus)
         bus, events = receive(bus, b"", now)
         ended = any(isinstance(event, Ended) for event in events)
-    return _due(send(bus, place.question, place.profile, now))
+        sent += [now for event in events if isinstance(event, Transmit)]
+    return _due(send(bus, place.question, place.profile, now)) - sent[0]
 
 
 def _due(bus: Bus[Response]) -> float:

@@ -12,9 +12,10 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import dcon, modbus
+from i7000.arguments import check_type
 from i7000.availability import Availability
 from i7000.dcon.identity import LONGEST_TIMEOUT
-from i7000.errors import I7000Error, InvalidValueError
+from i7000.errors import I7000Error, InvalidValueError, shown
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined, Outcome, Rejected, TimedOut
 from i7000.host.procedures.inquiry import (
@@ -88,8 +89,15 @@ class Restoration:
     line: LineSettings | None = None
 
     def of(self, name: str) -> Restored:
-        """Return the result of a setting; `KeyError` if there is none."""
-        return {result.name: result for result in self.results}[name]
+        """Return the result of a setting.
+
+        Errors: `InvalidValueError` for a name without a result; `ArgumentError`.
+        """
+        check_type("name", name, str)
+        by_name = {result.name: result for result in self.results}
+        if name not in by_name:
+            raise InvalidValueError("name", name, ", ".join(by_name), "", f"there is no result for {shown(name)}")
+        return by_name[name]
 
 
 def make_so(here: Here, wanted: Mapping[str, Plain], named: frozenset[str]) -> Procedure[Restoration]:
@@ -265,10 +273,10 @@ def _read_back(places: tuple[Here, ...], targets: list[Target]) -> Procedure[tup
     """Return where the module answers, and its answer; the last place if it answers nowhere.
 
     Special: a module that answers at a new place without the wanted values is at the last place: where only the stop
-        bits differ, it hears both.
+        bits differ, it hears both. An unexpected value is read twice: the first can be a late repetition of an old one.
     """
     line = places[-1].line
-    for place in places:
+    for place in (*places, places[-1]):
         if place.line is not None and place.line != line:
             line = place.line
             yield Tune(line)

@@ -18,7 +18,7 @@ from i7000.availability import Availability
 from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.procedures.access import Access, Place, message, register, registers_of
-from i7000.host.procedures.values import Channels, Choice, Name, Plain, Quantity, Values, choices, switch, types
+from i7000.host.procedures.values import Channels, Choice, Name, Quantity, Values, choices, switch, types
 from i7000.modbus.channel_settings import FAST_MODE_BIT, FILTER_BIT
 from i7000.modbus.cold_junction import FIRST_CHANNEL
 from i7000.modbus.registers import Kind, Register
@@ -87,13 +87,6 @@ class Setting:
     def allowed(self) -> str:
         """The values that it can have, for messages."""
         return self.values.allowed
-
-    def value(self, response: object) -> Plain:
-        """Return its plain value in a response.
-
-        Errors: `InvalidValueError` for a value that the module should not have; `DecodeError` of the codec.
-        """
-        return self.values.plain(self.name, self.access.value(response))
 
 
 # --- the table --------------------------------------------------------------------------------------------------------
