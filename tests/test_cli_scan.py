@@ -38,7 +38,7 @@ def test_modules_of_all_kinds_are_found_and_identified(run: Run) -> None:
     assert re.split("  +", first) == ["01", "9600", "N81", "Modbus RTU", "CRC", "00701900", "B4.5", "M-7019R"]
     assert re.split("  +", second) == ["30h (48)", "9600", "N81", "DCON", "no", "7017", "B4.5", "M-7017"]
     assert re.split("  +", third) == ["02", "19200", "N81", "DCON", "yes", "7018", "B4.5", "I-7018 or M-7018"]
-    assert told.err == "i7000: 97 places to look at take 19 s if nothing answers\n"
+    assert told.err == "i7000: 97 places to look at take 18 s if nothing answers\n"
     assert told.code == 0
 
 
