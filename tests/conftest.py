@@ -11,10 +11,11 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.terminal import plain, run
+from tests.workbench import answered, workbench
 
 pytest_plugins = ["pytester"]
 
-__all__ = ["plain", "run"]
+__all__ = ["answered", "plain", "run", "workbench"]
 
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, print_blob=True, database=None)

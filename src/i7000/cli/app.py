@@ -7,15 +7,20 @@ from typing import Literal
 
 from cyclopts import App, CycloptsError, UnusedCliTokensError
 
+from i7000.cli.backup import backup
 from i7000.cli.commands import commands
 from i7000.cli.decode import decode
+from i7000.cli.diff import diff
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
+from i7000.cli.restore import restore
 from i7000.cli.scan import scan
+from i7000.cli.send import send
+from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
@@ -32,8 +37,11 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 
-for _command in (decode, encode, commands, registers, errata, listen, read, scan, simulate, proxy):
+for _command in (
+    decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
+):  # fmt: skip
     app.command(_command)
+app.command(set_setting, name="set")
 
 
 @app.command(name="--install-completion")

@@ -3,35 +3,26 @@
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from i7000 import describe
 from i7000.cli.durations import seconds
 from i7000.cli.module import named
-from i7000.cli.options import UNKNOWN, Module, Texts, address_of
+from i7000.cli.options import UNKNOWN, Module, Texts
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
 from i7000.cli.text import Printer
+from i7000.cli.wanted import ProtocolChoice, wanted
 from i7000.cli.words import UsageError
-from i7000.dissect import Known
-from i7000.settings import Protocol
 
 if TYPE_CHECKING:
     from i7000.cli.reading import Output, Plan
     from i7000.cli.reading_text import Writer
-    from i7000.cli.station import Wanted
 
 __all__ = ["read"]
 
 _SHORTEST_PERIOD = 0.05
 _LONGEST_PERIOD = 86400.0
-_MODBUS_ADDRESSES = range(1, 248)
-_PROTOCOLS = {
-    "auto": (Protocol.DCON, Protocol.MODBUS_RTU),
-    "dcon": (Protocol.DCON,),
-    "rtu": (Protocol.MODBUS_RTU,),
-}
 
 
 def read(  # noqa: PLR0913 - each of them is an option
@@ -55,9 +46,7 @@ def read(  # noqa: PLR0913 - each of them is an option
         bool, Parameter(help="Print JSON, one object a line for each module and time.", negative="")
     ] = False,
     output: Annotated[Path | None, Parameter(help="Write to a new file in place of standard output.")] = None,
-    protocol: Annotated[
-        Literal["auto", "dcon", "rtu"], Parameter(help="Protocol of the modules; auto asks them by both.")
-    ] = "auto",
+    protocol: Annotated[ProtocolChoice, Parameter(help="Protocol of the modules; auto asks them by both.")] = "auto",
     line: LineOptions = DEFAULT_LINE,
     asking: AskOptions = DEFAULT_ASKING,
     module: Module = UNKNOWN,
@@ -98,7 +87,7 @@ def read(  # noqa: PLR0913 - each of them is an option
         line.settings(),
         asking.policy(),
         asking.echo,
-        _wanted(address, module, protocol),
+        wanted(address, module, protocol),
         _period(every),
         _checked_count(count, every),
     )
@@ -131,35 +120,6 @@ def _writer(path: Path | None, stack: ExitStack) -> "Writer | None":
     from i7000.cli.reading_text import file_writer, new_file  # noqa: PLC0415 - it takes time
 
     return None if path is None else file_writer(stack.enter_context(new_file(path)), path)
-
-
-def _wanted(addresses: tuple[str, ...], module: Module, protocol: str) -> "tuple[Wanted, ...]":
-    """Return the modules to read: those of --address, and those that have an address in --model."""
-    from i7000.cli.station import Wanted  # noqa: PLC0415 - it takes time
-
-    knowledge = module.knowledge(protocol)
-    protocols = module.protocols()
-    numbers = dict.fromkeys((*map(address_of, addresses), *knowledge.modules)) or {1: None}
-    found = []
-    for number in numbers:
-        given = knowledge.of(number).given
-        spoken = protocols.get(number, protocols.get(None))
-        if spoken is not None and spoken not in _PROTOCOLS[protocol]:
-            raise UsageError(f"--protocol {protocol}: --model says another protocol for address {number}")
-        tried = _spoken(given, protocol) if spoken is None else (spoken,)
-        tried = tuple(it for it in tried if it is Protocol.DCON or number in _MODBUS_ADDRESSES)
-        if not tried:
-            raise UsageError(f"address {describe.address(number)}: by Modbus, an address is 1..247")
-        found.append(Wanted(number, given, tried))
-    return tuple(found)
-
-
-def _spoken(given: Known, protocol: str) -> tuple[Protocol, ...]:
-    """Return the protocols to try; modules that speak both have Modbus from the factory."""
-    tried = _PROTOCOLS[protocol]
-    if given.model is None:
-        return tried
-    return tuple(it for it in reversed(tried) if it in given.model.protocols)
 
 
 def _period(every: str | None) -> float | None:

@@ -15,7 +15,8 @@ from attrs import define, field, frozen
 from i7000 import LineSettings
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
 from i7000.cli.silence import silence_cause
-from i7000.cli.station import Polled, Station, Wanted, at_words
+from i7000.cli.station import Polled, Station, at_words
+from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError
 from i7000.dissect import Known
 from i7000.errors import Noise

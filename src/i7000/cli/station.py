@@ -14,6 +14,7 @@ from attrs import define, evolve, fields, frozen
 from i7000 import LineSettings, Profile, Protocol, describe
 from i7000.cli.silence import protocol_words
 from i7000.cli.stored import Stored, stored_settings
+from i7000.cli.wanted import Wanted
 from i7000.dissect import Fact, Known
 from i7000.dissect.known import fact_words
 from i7000.errors import InvalidValueError
@@ -22,7 +23,7 @@ from i7000.host.procedures import ChannelFault, Identified, Place, Procedure, Re
 from i7000.host.procedures.identified import profile_of
 from i7000.link import Line
 
-__all__ = ["Polled", "Station", "Wanted", "at_words"]
+__all__ = ["Polled", "Station", "at_words", "found_words", "merged"]
 
 _SILENT = "no answer"
 _TRIED = 2
@@ -30,25 +31,6 @@ _TRIED = 2
 _FIRST_REST = 2.0
 _LONGEST_REST = 60.0
 """Seconds for which a module that does not say what it is is left alone, at first and at most."""
-
-
-@frozen
-class Wanted:
-    """A module to be read: its address, what is given about it, and the protocols to try, in their order."""
-
-    address: int
-    given: Known
-    protocols: tuple[Protocol, ...]
-
-    @property
-    def tried(self) -> tuple[tuple[Protocol, bool], ...]:
-        """The protocols, each with the checksum settings that are tried."""
-        checksums = (False, True) if self.given.checksum is None else (self.given.checksum,)
-        return tuple(
-            (protocol, checksum)
-            for protocol in self.protocols
-            for checksum in (checksums if protocol is Protocol.DCON else (False,))
-        )
 
 
 @frozen
@@ -140,7 +122,7 @@ class Station:
             return ()
         self.answered = self.identified = found.protocol is not None
         try:
-            profile = _merged(given, found)
+            profile = merged(given, found)
         except InvalidValueError as error:
             return self._not_read(f"what is given does not fit the module: {error}")
         if profile is None:
@@ -150,7 +132,7 @@ class Station:
             return self._not_read(f"the types of its channels are unknown ({reasons}): give --type")
         self.profile, self.doubted, self.mask = profile, False, None
         self.protocol = self.wanted.protocols[0] if found.protocol is None else found.protocol
-        words = tuple(_found_words(self.wanted, found, profile, stored)) if self.answered else ()
+        words = tuple(found_words(self.wanted, found, profile, stored)) if self.answered else ()
         before, self.said = self.said, words
         return () if words == before else words
 
@@ -187,7 +169,7 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-def _merged(given: Known, found: Identified) -> Profile | None:
+def merged(given: Known, found: Identified) -> Profile | None:
     """Return the profile of a module: what is given, then what it says, then the factory defaults.
 
     Shape: None if neither says which model it is. Without types if neither says them.
@@ -214,7 +196,7 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
     return ((it.name, value) for it in fields(Known) if (value := getattr(known, it.name)) not in (None, ()))
 
 
-def _found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
+def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
     models = " or ".join(candidate.model.value for candidate in found.candidates) or profile.model.value

@@ -24,7 +24,7 @@ from i7000 import (
 from i7000.device import Eeprom, factory
 from i7000.errors import ArgumentError
 from i7000.host.procedures.change import Change, diff, restore, set_one
-from i7000.host.procedures.restoring import Restoration, Restored, Status
+from i7000.host.procedures.restoring import Restoration, Restored, Status, Writing
 from i7000.host.procedures.settings import Hazard, hazard_of, settings_of
 from i7000.host.procedures.snapshot import Snapshot, snapshot
 from i7000.strategies.settings import snapshots
@@ -370,7 +370,7 @@ def test_a_value_is_given_as_people_write_it(name: str, value: object, changes: 
 
     assert Status.DONE is made.of(name).status
     assert module(**changes) == bench.eeprom
-    assert [made.of(name)] == bench.told
+    assert [Writing((name,)), made.of(name)] == bench.told
 
 
 @pytest.mark.parametrize(

@@ -70,15 +70,27 @@ def restore(  # noqa: PLR0913 - what it depends on
         those that the module has stored.
     Errors: `ArgumentError`; `InvalidValueError` for a name that the snapshot does not have.
     """
+    named = named_settings(wanted, names)
+    return make_so(spot(address, profile, protocol, line), dict(wanted.settings), named)
+
+
+def named_settings(wanted: Snapshot, names: Iterable[str | Change] | None) -> frozenset[str]:
+    """Return the settings of a snapshot that `names` of `restore` stand for.
+
+    Errors: `ArgumentError`; `InvalidValueError` for a name that the snapshot does not have.
+
+    >>> from i7000 import Model
+    >>> wanted = Snapshot(Model.I_7018, settings={"type_code": "K", "baud_rate": 9600})
+    >>> named_settings(wanted, None), named_settings(wanted, ["baud_rate"])
+    (frozenset({'type_code'}), frozenset({'baud_rate'}))
+    """
     check_type("wanted", wanted, Snapshot)
     settings = dict(wanted.settings)
     if names is None:
-        named = {name for name in settings if hazard_of(name) is Hazard.PLAIN}
-    else:
-        if isinstance(names, str):
-            names = (names,)
-        named = {name for key in as_tuple("names", names) for name in _named(key, settings)}
-    return make_so(spot(address, profile, protocol, line), settings, frozenset(named))
+        return frozenset(name for name in settings if hazard_of(name) is Hazard.PLAIN)
+    if isinstance(names, str):
+        names = (names,)
+    return frozenset(name for key in as_tuple("names", names) for name in _named(key, settings))
 
 
 def _named(key: str | Change, settings: Mapping[str, Plain]) -> Iterable[str]:

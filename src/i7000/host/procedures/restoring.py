@@ -38,7 +38,7 @@ from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["Restoration", "Restored", "Status", "make_so"]
+__all__ = ["Restoration", "Restored", "Status", "Writing", "make_so"]
 
 
 class Status(Enum):
@@ -74,6 +74,13 @@ class Restored:
     before: Plain | None = None
     after: Plain | None = None
     reason: str = ""
+
+
+@frozen
+class Writing:
+    """The names of settings that are about to be written: until their results come, they are in doubt."""
+
+    names: tuple[str, ...]
 
 
 @frozen
@@ -205,6 +212,7 @@ def _write(here: Here, targets: list[Target], answer: Answer, seen: Seen) -> Pro
         if (yield from _is_taken(places[0])):
             reason = f"another module answers at address {places[0].address:02X}"
             return here, [target.ended(Status.SKIPPED, target.before, reason) for target in targets]
+    yield Tell(Writing(tuple(target.setting.name for target in targets)))
     result = yield from ask(command, here.profile)
     unlocking = _unlocking(here, setting) if isinstance(result.outcome, Declined) else ()
     if unlocking:

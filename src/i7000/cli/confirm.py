@@ -1,0 +1,38 @@
+"""A question before something is changed.
+
+Laws: nothing is changed without an answer: where nobody can answer, the option that does without is named.
+"""
+
+import sys
+
+from i7000.cli.text import Printer
+from i7000.cli.words import UsageError
+
+__all__ = ["check_can_ask", "confirmed"]
+
+_YES = ("y", "yes")
+_LONGEST_ANSWER = 80
+
+
+def check_can_ask(why: str, *, yes: bool) -> None:
+    """Raise `UsageError` if a question cannot be asked: there is no terminal, and no --yes; `why` it has to be."""
+    if not yes and not _is_terminal():
+        raise UsageError(f"{why}; there is no terminal to ask you at: give --yes")
+
+
+def confirmed(why: str, question: str, printer: Printer, *, yes: bool) -> bool:
+    """Say why there is a question, ask it, and return whether the answer is yes; with `yes`, nothing is asked.
+
+    Errors: `UsageError` if there is no terminal.
+    """
+    if yes:
+        return True
+    check_can_ask(why or question, yes=yes)
+    printer.flush()
+    sys.stderr.write(f"{why}. {question} [y/N] " if why else f"{question} [y/N] ")
+    sys.stderr.flush()
+    return sys.stdin.readline(_LONGEST_ANSWER).strip().lower() in _YES
+
+
+def _is_terminal() -> bool:
+    return sys.stdin is not None and sys.stderr is not None and sys.stdin.isatty()

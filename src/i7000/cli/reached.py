@@ -1,0 +1,114 @@
+"""A module that is reached at a port: opened, asked what it is, and then whatever a command is about.
+
+Laws: nothing is written before the module is identified. A signal breaks off what only reads.
+"""
+
+import signal
+from collections.abc import Callable
+from contextlib import ExitStack
+from typing import TypeVar
+
+from attrs import define, evolve, frozen
+
+from i7000 import InvalidValueError, Model, Profile, Protocol
+from i7000.cli.asked import Asked
+from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
+from i7000.cli.silence import silence_cause
+from i7000.cli.station import at_words, found_words, merged
+from i7000.cli.stored import stored_settings
+from i7000.cli.wanted import Wanted
+from i7000.cli.words import LineError, UsageError
+from i7000.host.procedures import Identified, Procedure, identify
+from i7000.link import Line, LinkError, Observed
+
+__all__ = ["OpenLine", "Reached", "given_profile", "reach", "run"]
+
+T = TypeVar("T")
+Note = Callable[[str], None]
+"""What is called with messages beside the output."""
+
+
+@frozen
+class OpenLine:
+    """A line that is open until a command ends."""
+
+    line: Line
+    ending: BreakingEnding
+
+    def run(self, procedure: Procedure[T]) -> T:
+        """Carry out a procedure that changes nothing; a signal breaks it off."""
+        with self.ending.breakable():
+            return self.line.run(procedure)
+
+
+@define
+class Reached:
+    """A module that said what it is, and where it is now."""
+
+    open: OpenLine
+    address: int
+    protocol: Protocol
+    profile: Profile
+
+    @property
+    def words(self) -> str:
+        """The module in words."""
+        return f"{self.profile.model.value} at {at_words(self.address)}"
+
+
+def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observed], object] | None = None) -> int:
+    """Open the port of a module, do the work of a command, and return the exit code.
+
+    Errors: `UsageError` for a text that is no target; `LineError` for a port that cannot be opened or is lost.
+    """
+    with broken_off_by_signals() as ending:
+        try:
+            with ExitStack() as stack:
+                with ending.breakable():
+                    port = stack.enter_context(opened(asked.target, asked.settings))
+                line = Line(port, asked.settings, asked.policy, echo=asked.echo, observe=observe)
+                return body(OpenLine(line, ending))
+        except LinkError as error:
+            raise LineError(error) from None
+        except KeyboardInterrupt:
+            return 128 + (ending.number or signal.SIGINT)
+
+
+def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = None) -> Reached:
+    """Ask a module what it is.
+
+    Shape: `note` gets that in words; a module that can be several models is taken for `like`, if that is one of them.
+    Errors: `LineError` if it does not answer, `UsageError` for a module of an unknown model, and for what is given and
+        does not fit.
+    """
+    wanted = asked.wanted
+    found = open_line.run(identify(wanted.address, protocols=wanted.protocols, checksum=wanted.given.checksum))
+    if found.protocol is None:
+        with open_line.ending.breakable():
+            cause = silence_cause(open_line.line, wanted.address, wanted.tried)
+        raise LineError(f"{at_words(wanted.address)} does not answer: {cause}")
+    profile = _profile(wanted, found, like)
+    for words in found_words(wanted, found, profile, open_line.run(stored_settings(found))):
+        note(words)
+    return Reached(open_line, wanted.address, found.protocol, profile)
+
+
+def given_profile(wanted: Wanted) -> Profile:
+    """Return the profile of a module whose model is given, with what else is given, or the factory defaults.
+
+    Errors: `UsageError` if no module has this combination.
+    """
+    return _profile(wanted, Identified(wanted.address), None)
+
+
+def _profile(wanted: Wanted, found: Identified, like: Model | None) -> Profile:
+    at, known = at_words(wanted.address), wanted.given
+    if known.model is None and like in {candidate.model for candidate in found.candidates}:
+        known = evolve(known, model=like)
+    try:
+        profile = merged(known, found)
+    except InvalidValueError as error:
+        raise UsageError(f"{at}: what is given does not fit the module: {error}") from None
+    if profile is None:
+        raise UsageError(f"{at}: {'; '.join(found.reasons)}: give --model")
+    return profile
