@@ -117,10 +117,11 @@ FORGOTTEN = "sim:I-7018,type=K,address=5,baud=19200,checksum=true"
 
 @pytest.mark.parametrize("command", re.findall(r"^i7000 (.*)$", PAGE, re.MULTILINE))
 def test_the_commands_of_the_guide_find_a_forgotten_module(run: Run, command: str) -> None:
-    in_init_mode = "--address 0 " in command or "--addresses" in command
+    in_init_mode = re.search(r"address[= ]0\b|--addresses", command)
     target = f"{FORGOTTEN},init=true" if in_init_mode else FORGOTTEN
+    yes = ["--yes"] if command.startswith("set ") else []
 
-    assert run(*command.replace("/dev/ttyUSB0", target).split()).code == 0
+    assert run(*command.replace("/dev/ttyUSB0", target).split(), *yes).code == 0
 
 
 def test_the_guide_shows_what_the_module_says(run: Run) -> None:
