@@ -120,6 +120,20 @@ def test_what_could_not_be_read_is_reported_and_noted_with_its_reason(workbench:
     assert told.code == 1
 
 
+def test_a_module_that_does_not_answer_function_46h_is_saved_by_its_registers(workbench: Bench, tmp_path: Path) -> None:
+    bench = workbench(module(Model.M_7019R, protocol=Protocol.MODBUS_RTU))
+
+    def look(wire: bytes) -> None:
+        bench.port.faults = Faults(silent=1.0) if wire[1] == 0x46 else Faults()
+
+    bench.port.before_write = look
+    told = bench("backup", str(tmp_path / "a.json"), "--model", "M-7019R", "--retries", "0")
+
+    taken = Snapshot.from_json((tmp_path / "a.json").read_bytes())
+    assert (told.code, {name for name, _ in taken.unread}) == (1, {"channel_mask", "firmware", "name"})
+    assert taken["address"] == 1
+
+
 def test_a_module_that_does_not_answer_leaves_no_file(run: Run, tmp_path: Path) -> None:
     told = run("backup", "sim:I-7018,address=3", str(tmp_path / "module.json"))
 

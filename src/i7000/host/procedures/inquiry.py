@@ -4,6 +4,7 @@ Laws: every question ends, and what a line does is a value: a question without a
 that answers nothing at all is asked no more.
 """
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from attrs import evolve, field
@@ -16,6 +17,7 @@ from i7000.host.events import Answered, Declined
 from i7000.host.procedures.settings import Setting, settings_of
 from i7000.host.procedures.step import Procedure, ask
 from i7000.host.procedures.values import Plain
+from i7000.message import Query, Response
 from i7000.modbus.request import LAST_ADDRESS
 from i7000.models import Firmware
 from i7000.profile import Profile
@@ -107,10 +109,18 @@ def refusal(outcome: Declined) -> str:
 
 
 def is_there(here: Here) -> Procedure[bool]:
-    """Return whether the module answers a request that every module has."""
-    rtu = here.protocol is Protocol.MODBUS_RTU
-    answer = yield from ask_for(here, (modbus.ReadModuleName if rtu else dcon.ReadConfiguration)(here.address))
-    return not answer.silent
+    """Return whether the module answers a request that every module has; by Modbus, also one without function 46h."""
+    for question in _QUESTIONS[here.protocol]:
+        answer = yield from ask_for(here, question(here.address))
+        if not answer.silent:
+            return True
+    return False
+
+
+_QUESTIONS: Mapping[Protocol, tuple[Callable[[int], Query[Response]], ...]] = {
+    Protocol.DCON: (dcon.ReadConfiguration,),
+    Protocol.MODBUS_RTU: (modbus.ReadModuleName, lambda address: modbus.ReadInputRegisters(address, 0, 1)),
+}
 
 
 def ask_setting(here: Here, setting: Setting, seen: Seen) -> Procedure[Answer]:
