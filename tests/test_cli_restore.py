@@ -31,10 +31,6 @@ OVEN: dict[str, Any] = {
     "name": "OVEN",
     "type_codes": (TypeCode.J,) * 2 + (TypeCode.K,) * 6,
 }
-    "host_watchdog_timeout": 25,
-    "name": "OVEN",
-    "type_codes": (TypeCode.J,) * 2 + (TypeCode.K,) * 6,
-}
 
 
 def test_what_would_change_is_shown_and_then_what_became_of_it(workbench: Bench, tmp_path: Path) -> None:
