@@ -230,7 +230,7 @@ def test_a_time_that_is_not_finite_is_refused(call: Callable[[float], Any], now:
 @each_clock
 @pytest.mark.parametrize("now", ["5", None, True, 5j])
 def test_what_is_no_time_is_refused(call: Callable[[float], Any], now: Any) -> None:
-    with pytest.raises(ArgumentError, match=r"now cannot be .*: int or float"):
+    with pytest.raises(ArgumentError, match="now must be int or float, not "):
         call(now)
 
 

@@ -26,7 +26,7 @@ from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
 from i7000.host import Answered, TimedOut
-from i7000.host.procedures import Candidate, Identified, Result, Unknown, read
+from i7000.host.procedures import Candidate, Identified, Result, Unknown, identify, read
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -426,6 +426,10 @@ class Scene:
         self.at_first = faults
         self.ports: list[Any] = []
 
+    def become(self, target: str) -> None:
+        """Put other modules on the line."""
+        self.ports[-1]._bus = open_target(target)._bus  # type: ignore[attr-defined] # noqa: SLF001
+
     def lose(self) -> None:
         self.ports[-1].close()
 
@@ -487,6 +491,72 @@ def test_a_module_that_answers_later_is_identified_then(run: Run, scene: Any, cl
     assert words[:2] == ["no answer"] * 2
     assert words[-1] == "152.4 degC"
     assert "address 01: I-7018 or M-7018" in told.err
+
+
+def test_a_module_that_gets_other_settings_is_identified_again(run: Run, scene: Any, clock: Clock) -> None:
+    made = scene(SLOW)
+    meanwhile(clock, after_1=lambda: made.become("sim:I-7018,type=J,channels=0,checksum=true"))
+    told = run("read", "COM3", "--every", "1s", "--count", "5")
+
+    words = [line.split("  ")[2] for line in told.out.splitlines()]
+    assert words[:2] == ["152.4 degC", "no answer to #01"]
+    assert words[-1] == "152.4 degC"
+    assert told.err.splitlines()[1].startswith("i7000: address 01: I-7018 or M-7018 B4.5, read as I-7018, DCON with a ")
+
+
+def test_a_doubted_module_that_cannot_be_found_is_left_as_it_was(run: Run, scene: Any, clock: Clock) -> None:
+    made = scene(SLOW)
+    meanwhile(clock, after_1=lambda: made.become("sim:I-7018,address=2"), after_8=lambda: made.become(SLOW))
+    told = run("read", "COM3", "--every", "10s", "--count", "10")
+
+    words = [line.split("  ")[2] for line in told.out.splitlines()]
+    assert words == ["152.4 degC", *["no answer to #01"] * 7, "152.4 degC", "152.4 degC"]
+    assert told.err.count("\n") == 1
+
+
+def test_csv_keeps_its_columns_if_a_module_gets_other_units(run: Run, scene: Any, clock: Clock) -> None:
+    made = scene(SLOW)
+    meanwhile(clock, after_1=lambda: made.become("sim:I-7018,type=05,channels=0"))
+    told = run("read", "COM3", "--every", "10s", "--count", "4", "--csv")
+
+    lines = [*csv.reader(told.out.splitlines())]
+    assert {len(line) for line in lines} == {9}
+    assert lines[-1][1:] == ["not_understood"] * 8
+
+
+def identified(monkeypatch: pytest.MonkeyPatch, change: Callable[[Identified], Identified]) -> None:
+    """Change what modules say that they are."""
+
+    def changed(*arguments: Any, **others: Any) -> Any:
+        found = yield from identify(*arguments, **others)
+        return change(found)
+
+    monkeypatch.setattr(station, "identify", changed)
+
+
+def test_a_module_of_unknown_types_is_not_read(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    unknown = (Unknown("types", "no answer to $018C0"),)
+    identified(monkeypatch, lambda it: evolve(it, known=evolve(it.known, types=None), unknown=unknown))
+    told = run("read", "sim:I-7018")
+
+    assert told.err == ("i7000: address 01: the types of its channels are unknown (no answer to $018C0): give --type\n")
+    assert told.code == 1
+
+
+def test_a_module_that_is_lost_again_while_it_is_identified_stays_as_it_was(
+    run: Run, scene: Any, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = scene(SLOW)
+
+    def change() -> None:
+        made.become("sim:I-7018,type=05")
+        identified(monkeypatch, lambda _: Identified(0x01))
+
+    meanwhile(clock, after_1=change)
+    told = run("read", "COM3", "--every", "10s", "--count", "4")
+
+    assert len(told.out.splitlines()) == 4
+    assert told.err.count("\n") == 1
 
 
 def test_a_port_that_is_lost_is_opened_again_when_it_is_back(run: Run, scene: Any, clock: Clock) -> None:

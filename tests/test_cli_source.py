@@ -14,6 +14,8 @@ from hypothesis import strategies as st
 
 from i7000.cli import source
 from i7000.cli.source import LONGEST_LINE, Counted, Lines
+from i7000.recording import End, Start, text
+from tests.dissect.test_capture import pcap
 from tests.simulation import MAIN
 from tests.terminal import Run
 
@@ -159,7 +161,33 @@ def test_numbers_are_counted_once_and_the_first_are_named() -> None:
     assert str(counted) == ", ".join(map(str, (3, *range(5, 24)))) + ", ..."
 
 
+def test_a_number_of_zero_is_counted() -> None:
+    counted = Counted()
+    counted.add(0)
+
+    assert (counted.count, str(counted)) == (1, "0")
+
+
 # --- decode -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        pcap() + bytes(8) + b"\xff" * 8,
+        pcap()[:10],
+        pcap(link_type=1),
+        f'{text(Start("", "i7000 listen", "1", "COM3"))}\n{{"record": \n{text(End(0.5))}\n'.encode(),
+    ],
+    ids=["a packet of 4 GiB", "a header that is cut", "no serial line", "a recording with a damaged line"],
+)
+def test_damage_before_the_first_frame_is_not_understood(run: Run, tmp_path: Path, data: bytes) -> None:
+    file = tmp_path / "damaged"
+    file.write_bytes(data)
+    result = run("decode", "--file", str(file))
+
+    assert result.code == 1
+    assert "not understood: " in result.err
 
 
 def test_a_log_is_decoded_as_it_arrives() -> None:

@@ -13,6 +13,8 @@ DCON, RTU = Protocol.DCON, Protocol.MODBUS_RTU
 I_7018R = Profile(Model.I_7018R, type_codes=(TypeCode.J,) * 8)
 M_7019R = Profile(Model.M_7019R, type_codes=(TypeCode.K,) * 8)
 REPORT = b">+025.12+9999.9-9999.9+000.00+000.00+000.00+000.00+000.00\r"
+WRONG = "the checksum is missing or wrong"
+TCP = "a Modbus TCP header (transaction 1, 6 bytes follow): these modules speak RTU"
 
 
 def observed(
@@ -143,8 +145,8 @@ def test_an_answer_to_what_cannot_be_read_is_shown() -> None:
 def test_noise_is_shown_escaped_and_cut() -> None:
     first, second = (told(Noise(wire, Fault.LEADING), profile=None)[0] for wire in (b"\x1b[2J\xe4", b"\x00" * 1000))
 
-    assert first.endswith(r"\x1b[2J\xe4  no frame: leading")
-    assert second.endswith(r"\x00... (1000 bytes)  no frame: leading")
+    assert r"\x1b[2J\xe4  no frame: leading" in first
+    assert r"\x00... (1000 bytes)  no frame: leading" in second
 
 
 def test_an_answer_to_noise_is_shown() -> None:
@@ -161,6 +163,53 @@ def test_a_profile_without_types_leaves_readings_as_they_were_sent() -> None:
     _, answer = told(b"#01\r", REPORT, evolve(I_7018R, type_codes=()))
 
     assert "AnalogInputs  +025.12, OVER_RANGE, UNDER_RANGE, +000.00, " in answer
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        (
+            b"#01\r",
+            f"{WRONG}; without a checksum it is ReadAnalogInputs; the checksum would be 84",
+        ),
+        (
+            b"$01M00\r",
+            f"{WRONG}; 00 in place of a checksum? that of ReadModuleName would be D2",
+        ),
+        (
+            b"$01m\r",
+            f"{WRONG}; lower case and no checksum: it would be ReadModuleName, with the checksum D2",
+        ),
+    ],
+)
+def test_a_command_that_is_not_understood_is_shown_with_its_cause(command: bytes, words: str) -> None:
+    (line,) = told(command, profile=evolve(I_7018R, checksum=True))
+
+    assert line.endswith(f"{command[:-1].decode()}  not understood: {words}  silence")
+
+
+@pytest.mark.parametrize(
+    ("wire", "words"),
+    [
+        (b"$01M\n", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"),
+        (b"\xff\xfe\x80\r", "noise: another baud rate or parity?"),
+        (b"\x01\x04\0\0\0\x081\xcb", "damaged? ReadInputRegisters would have the CRC F1 CC"),
+        (
+            b"\0\1\0\0\0\6\1\4\0\0\0\x08",
+            f"{TCP}; the rest is ReadInputRegisters",
+        ),
+    ],
+)
+def test_noise_is_shown_with_its_likely_cause(wire: bytes, words: str) -> None:
+    (line,) = told(Noise(wire, Fault.LEADING), profile=None)
+
+    assert line.endswith(f"  no frame: leading; {words}")
+
+
+def test_a_type_that_the_model_does_not_have_is_noted() -> None:
+    (line,) = told(b"$017C0R50\r")
+
+    assert "; an I-7018R has no type 50" in line
 
 
 # --- what is told of Modbus -------------------------------------------------------------------------------------------
@@ -245,7 +294,7 @@ def test_a_request_that_cannot_be_read_is_shown_with_the_fault_and_the_answer() 
 def test_a_response_that_cannot_be_read_is_shown_with_the_fault() -> None:
     _, answer = told(rtu(modbus.ReadInputRegisters(1, 0, 3)), b"\x01\x04", M_7019R)
 
-    assert answer.strip() == "<- 01 04  not understood: length at byte 2; allowed: 4 to 256 bytes"
+    assert answer.strip().startswith("<- 01 04  not understood: length at byte 2; allowed: 4 to 256 bytes; ")
 
 
 def test_modbus_noise_is_shown_in_hex_and_cut() -> None:
@@ -253,8 +302,18 @@ def test_modbus_noise_is_shown_in_hex_and_cut() -> None:
         line.plain for line in lines(Observed(0.0, "pty", Noise(b"\x1b" * 90, Fault.CRC), RTU, None, b"x"))
     )
 
-    assert first.endswith("1B 1B... (90 bytes)  no frame: crc")
+    assert "1B 1B... (90 bytes)  no frame: crc" in first
     assert answer.strip() == "<- 78"
+
+
+@pytest.mark.parametrize("profile", [M_7019R, None])
+def test_a_number_of_the_manual_in_place_of_an_address_is_noted(profile: Profile | None) -> None:
+    request = rtu(modbus.ReadHoldingRegisters(1, 40001, 1))
+
+    (line,) = lines(Observed(0.0, "pty", request, RTU, profile, None))
+
+    note = "40001 is a number of the manual: in a frame it is address 0 (3.2); address 40001 would be number 440002"
+    assert f"; {note}" in line.plain
 
 
 # --- nothing raises ---------------------------------------------------------------------------------------------------

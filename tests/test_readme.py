@@ -85,7 +85,13 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    [*sorted(path.name for path in ROOT.glob("*.md")), "spec/README.md", "tests/README.md", "docs/half_duplex.md"],
+    [
+        *sorted(path.name for path in ROOT.glob("*.md")),
+        "spec/README.md",
+        "tests/README.md",
+        "docs/half_duplex.md",
+        "docs/find_a_module.md",
+    ],
 )
 def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:
     text = re.sub(r"```.*?```|^[|#].*?$", "", (ROOT / name).read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)

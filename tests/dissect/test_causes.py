@@ -69,10 +69,22 @@ def test_where_the_crc_is_right_the_error_says_what_is_wrong() -> None:
 @pytest.mark.parametrize(
     ("request_body", "said"),
     [
-        ("01 03 9C 41 00 01", "40001 is a number of the manual: in a frame it is address 0 (3.2)"),
-        ("01 04 75 31 00 08", "30001 is a number of the manual: in a frame it is address 0 (3.2)"),
-        ("01 06 9E 29 00 01", "40489 is a number of the manual: in a frame it is address 488 (3.2)"),
-        ("01 02 27 11 00 08", "10001 is a number of the manual: in a frame it is address 0 (3.2)"),
+        (
+            "01 03 9C 41 00 01",
+            "40001 is a number of the manual: in a frame it is address 0 (3.2); address 40001 would be number 440002",
+        ),
+        (
+            "01 04 75 31 00 08",
+            "30001 is a number of the manual: in a frame it is address 0 (3.2); address 30001 would be number 330002",
+        ),
+        (
+            "01 06 9E 29 00 01",
+            "40489 is a number of the manual: in a frame it is address 488 (3.2); address 40489 would be number 440490",
+        ),
+        (
+            "01 02 27 11 00 08",
+            "10001 is a number of the manual: in a frame it is address 0 (3.2); address 10001 would be number 110002",
+        ),
     ],
 )
 def test_a_number_of_the_manual_that_is_used_as_an_address_is_noticed(request_body: str, said: str) -> None:

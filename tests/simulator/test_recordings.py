@@ -120,11 +120,12 @@ def test_rows_are_read_alike_whatever_stands_beside_them(
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("\n", "line 1: the columns are none: exactly one of them must be seconds"),
-        ("\n0,1", "line 2: the columns are 0, 1: exactly one of them must be seconds"),
-        ("seconds;0\n0;1", "line 1: the columns are seconds;0: exactly one of them must be seconds"),
-        ("seconds,1\n0,1", "line 1: the columns are seconds, 1: exactly one of them must be 0"),
-        ("seconds,0,0\n0,1,2", "line 1: the columns are seconds, 0, 0: exactly one of them must be 0"),
+        ("\n", "line 1: the columns are none: they must include seconds"),
+        ("\n0,1", "line 2: the columns are 0, 1: they must include seconds"),
+        ("seconds;0\n0;1", "line 1: the columns are seconds;0: they must include seconds"),
+        ("seconds,1\n0,1", "line 1: the columns are seconds, 1: they must include 0"),
+        ("seconds,0,0\n0,1,2", "line 1: the columns are seconds, 0, 0: 0 must be there once, not twice"),
+        ("seconds,0,0,0", "line 1: the columns are seconds, 0, 0, 0: 0 must be there once, not 3 times"),
         ("seconds,0", "line 1: no rows follow: at least one"),
         ("seconds,0\n\n\n", "line 1: no rows follow: at least one"),
         ("seconds,0\nx,1", "line 2: seconds cannot be 'x': a number as 12.5 or -1e-3"),

@@ -5,9 +5,9 @@ from functools import lru_cache
 from itertools import groupby
 from operator import attrgetter
 
-from i7000 import Fault, Protocol, Status, describe
+from i7000 import Protocol, Status, describe
 from i7000.cli.readers import Read
-from i7000.cli.records import OPTIONS, VALUES, fault_words
+from i7000.cli.records import OPTIONS, VALUES, wrong_words
 from i7000.cli.text import Line
 from i7000.dissect import Item, Meaning, Origin, Place
 from i7000.dissect.words import models_words
@@ -26,9 +26,7 @@ def frame_lines(read: Read, *, models: bool) -> Iterator[Line]:
         yield _row("note", read.note or "")
         return
     if heard.error is not None:
-        noted = heard.error.fault is Fault.CHECKSUM and any("checksum" in note for note in heard.notes)
-        wrong = "the checksum is missing or wrong" if noted else fault_words(heard.error)
-        yield [(f"{_INDENT}not understood: {wrong}", "red")]
+        yield [(f"{_INDENT}not understood: {wrong_words(heard)}", "red")]
     known = heard.meanings if len(heard.meanings) == 1 else ()
     short = len(heard.wire) <= _SHORT
     for meaning in known:

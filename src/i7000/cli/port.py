@@ -17,9 +17,9 @@ from cyclopts import Parameter
 from i7000 import BaudRate, CharacterFormat, InvalidValueError, LineSettings
 from i7000.cli.numbers import baud_rate
 from i7000.cli.words import LineError, UsageError
-from i7000.host import Policy
 
 if TYPE_CHECKING:
+    from i7000.host import Policy
     from i7000.link import Port
 
 __all__ = [
@@ -81,12 +81,14 @@ class AskOptions:
     echo: Annotated[bool, Parameter(negative="")] = False
     """Drop the echo of what is sent, which some 2-wire adapters return."""
 
-    def policy(self, otherwise: Policy = Policy()) -> Policy:  # noqa: B008 - frozen
+    def policy(self, otherwise: "Policy | None" = None) -> "Policy":
         """Return the timeouts and retries, from `otherwise` unless they are given.
 
         Errors: `UsageError` for numbers beyond the range.
         """
-        policy = otherwise
+        from i7000.host import Policy  # noqa: PLC0415 - most commands do without it
+
+        policy = otherwise or Policy()
         if self.timeout is not None:
             if not 0 < self.timeout <= _LONGEST_TIMEOUT:
                 raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT} seconds")

@@ -173,7 +173,7 @@ class Csv:
 
     def __init__(self, write: Writer) -> None:
         self._write = write
-        self._channels: tuple[int, ...] = ()
+        self._units: list[tuple[str, ...]] = []
 
     def begin(self, stations: tuple[Station, ...]) -> None:
         """Write the names of the columns.
@@ -183,24 +183,24 @@ class Csv:
         columns = ["time"]
         for station in stations:
             address, profile = station.wanted.address, station.profile
-            if profile is None or not profile.type_codes:
-                reason = "no types are known" if profile else station.reason
-                raise LineError(
-                    f"address {describe.address(address)}: {reason}; CSV needs the channels of all modules at its start"
-                )
+            if profile is None:
+                at = f"address {describe.address(address)}"
+                raise LineError(f"{at}: {station.reason}; CSV needs the channels of all modules at its start")
             prefix = f"{address:02X}:" if len(stations) > 1 else ""
             columns += [f"{prefix}{channel} ({unit})" for channel, unit in enumerate(profile.units)]
-        self._channels = tuple(len(station.profile.units) for station in stations if station.profile)
+            self._units.append(profile.units)
         self._write(",".join(columns))
 
     def show(self, polled: tuple[Polled, ...]) -> None:
         """Write the line of a time."""
         cells = [_iso(polled[0].time)]
-        for it, count in zip(polled, self._channels, strict=True):
-            if it.has_readings:
-                cells += [row.value or row.status for row in rows(it)]
+        for it, units in zip(polled, self._units, strict=True):
+            if not it.has_readings:
+                cells += [""] * len(units)
+            elif it.profile is not None and it.profile.units != units:
+                cells += [NOT_UNDERSTOOD] * len(units)
             else:
-                cells += [""] * count
+                cells += [row.value or row.status for row in rows(it)]
         self._write(",".join(cells))
 
 

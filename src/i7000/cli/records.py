@@ -14,7 +14,7 @@ from typing import Any
 
 from attrs import field, fields, frozen
 
-from i7000 import DecodeError, LineSettings, ReportSettings, Status, dcon, modbus
+from i7000 import DecodeError, Fault, LineSettings, ReportSettings, Status, dcon, modbus
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
@@ -33,6 +33,7 @@ __all__ = [
     "meaning_record",
     "parts_of",
     "register_record",
+    "wrong_words",
 ]
 
 Record = dict[str, Any]
@@ -115,7 +116,15 @@ def _tail(read: Read, meaning: Meaning | None) -> Record:
 
 
 _NOTHING_WRONG = _json(_tail(Read(0, 0, 0, "", None, None), None))[1:]
-"""The keys of a frame of which nothing else is to be said."""
+"""The keys of a frame without a note, an error or another meaning."""
+
+
+def wrong_words(heard: Heard) -> str:
+    """Return what is wrong with a frame that cannot be decoded; its notes have the cause."""
+    assert heard.error is not None  # noqa: S101 - only such a frame has it
+    if heard.error.fault is Fault.CHECKSUM and any("checksum" in note for note in heard.notes):
+        return "the checksum is missing or wrong"
+    return fault_words(heard.error)
 
 
 def fault_words(error: DecodeError) -> str:

@@ -236,7 +236,8 @@ def run(search: Search, printer: Printer) -> int:
     Errors: `UsageError` for a text that is no target; `LineError` for a port that cannot be opened or is lost.
     """
     count = len(places(search.lines, search.addresses, search.protocols, search.checksums))
-    printer.note(f"{count} places to look at take {duration_words(search.seconds)} if nothing answers")
+    noun = "place to look at takes" if count == 1 else "places to look at take"
+    printer.note(f"{count} {noun} {duration_words(search.seconds)} if nothing answers")
     found: list[Found] = []
     findings: list[Finding] = []
     with opened(search.target, search.lines[0]) as port, broken_off_by_signals() as ending:

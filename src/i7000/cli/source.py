@@ -28,7 +28,7 @@ class Counted:
     def __init__(self) -> None:
         self.count = 0
         self._first: list[int] = []
-        self._last = 0
+        self._last: int | None = None
 
     def add(self, number: int) -> None:
         """Count a line, once only."""

@@ -18,7 +18,7 @@ from i7000.cli.wanted import Wanted
 from i7000.dissect import Fact, Known
 from i7000.dissect.known import fact_words
 from i7000.errors import InvalidValueError
-from i7000.host import TimedOut
+from i7000.host import Declined, TimedOut
 from i7000.host.procedures import ChannelFault, Identified, Place, Procedure, Report, identify, read, scan
 from i7000.host.procedures.identified import profile_of
 from i7000.link import Line
@@ -79,40 +79,62 @@ class Station:
     """Whether it said what it is."""
     answered: bool = True
     """Whether it answered the last time."""
+    doubted: bool = False
+    """Whether it may be another module, or have other settings, than `profile` says."""
     pause: float = 0.0
-    """The seconds until then."""
+    """The seconds between the last two attempts to identify it; 0 if there was one, or none."""
     again: float = -inf
-    """When it is to be identified again."""
+    """The time of the next one."""
+    said: tuple[str, ...] = ()
+    """What was said about it."""
 
     def identify(self, line: Line) -> tuple[str, ...]:
-        """Identify the module, unless that is done, and return what there is to say about it."""
-        if self.profile is not None or monotonic() < self.again:
+        """Identify the module if it is unknown or doubted, and return what there is to say about it.
+
+        Time: a module that does not say what it is, or is not as it said, is left alone for a while.
+        """
+        if (self.profile is not None and not self.doubted) or monotonic() < self.again:
             return ()
         wanted = self.wanted
+        quick = self.doubted or len(wanted.tried) > 1
+        place, silent = line.run(_look(wanted, line.line)) if quick else (None, False)
+        again = self.pause > 0
+        self.pause = min(max(2 * self.pause, _FIRST_REST), _LONGEST_REST)
+        self.again = monotonic() + self.pause
+        if self.doubted and place is None:
+            return ()
         protocols, checksum, policy = wanted.protocols, wanted.given.checksum, line.policy
-        place = line.run(_look(wanted, line.line)) if len(wanted.tried) > 1 else None
         if place is not None:
             protocols = (place.protocol,)
             checksum = place.checksum if place.protocol is Protocol.DCON else checksum
-        else:
-            policy = evolve(policy, retries=0 if self.pause else max(0, policy.retries - _TRIED))
+        elif again:
+            policy = evolve(policy, retries=0)
+        elif silent:
+            policy = evolve(policy, retries=max(0, policy.retries - _TRIED))
         found = line.run(identify(wanted.address, protocols=protocols, checksum=checksum, policy=policy))
-        self.pause = min(max(2 * self.pause, _FIRST_REST), _LONGEST_REST)
-        self.again = monotonic() + self.pause
-        self.answered = self.identified = found.protocol is not None
-        if not self.answered and wanted.given.model is None:
+        return self._take(found, line.run(stored_settings(found)))
+
+    def _take(self, found: Identified, stored: Stored | None) -> tuple[str, ...]:
+        """Take what a module says that it is; a profile is kept until there is a better one."""
+        given = self.wanted.given
+        if found.protocol is None and (self.profile is not None or given.model is None):
+            self.answered = self.profile is not None and self.answered
             return ()
+        self.answered = self.identified = found.protocol is not None
         try:
-            profile = merged(wanted.given, found)
+            profile = merged(given, found)
         except InvalidValueError as error:
             return self._not_read(f"what is given does not fit the module: {error}")
         if profile is None:
             return self._not_read(f"{'; '.join(found.reasons)}: give --model")
-        self.profile = profile
-        self.protocol = wanted.protocols[0] if found.protocol is None else found.protocol
-        if not self.answered:
-            return ()
-        return tuple(found_words(wanted, found, profile, line.run(stored_settings(found))))
+        if not profile.type_codes:
+            reasons = "; ".join(it.reason for it in found.unknown if it.name == "types")
+            return self._not_read(f"the types of its channels are unknown ({reasons}): give --type")
+        self.profile, self.doubted, self.mask = profile, False, None
+        self.protocol = self.wanted.protocols[0] if found.protocol is None else found.protocol
+        words = tuple(found_words(self.wanted, found, profile, stored)) if self.answered else ()
+        before, self.said = self.said, words
+        return () if words == before else words
 
     def _not_read(self, reason: str) -> tuple[str, ...]:
         """Remember why the module is not read; it is said once."""
@@ -128,14 +150,19 @@ class Station:
         report = line.run(read(address, self.profile, protocol=self.protocol, mask=self.mask, policy=policy))
         self.answered = not isinstance(report.outcome, TimedOut)
         self.mask = report.mask if self.answered else None
-        return Polled(address, _now(), self.answered, report.reason, report, self.profile, self.protocol)
+        polled = Polled(address, _now(), self.answered, report.reason, report, self.profile, self.protocol)
+        self.doubted = not (polled.understood or isinstance(report.outcome, Declined))
+        if not self.doubted:
+            self.pause = 0.0
+        return polled
 
 
-def _look(wanted: Wanted, settings: LineSettings) -> Procedure[Place | None]:
-    """Make the procedure that looks quickly by which protocol a module answers; None if it does not."""
+def _look(wanted: Wanted, settings: LineSettings) -> Procedure[tuple[Place | None, bool]]:
+    """Make the procedure that looks quickly by which protocol a module answers, and whether nothing was heard."""
     checksums = {checksum for protocol, checksum in wanted.tried if protocol is Protocol.DCON}
     scanned = yield from scan([settings], [wanted.address], wanted.protocols, sorted(checksums))
-    return next((finding.place for finding in scanned.devices if finding.place.address == wanted.address), None)
+    places = (finding.place for finding in scanned.devices if finding.place.address == wanted.address)
+    return next(places, None), not scanned.findings
 
 
 def _now() -> datetime:

@@ -11,9 +11,10 @@ from itertools import groupby
 from rich.text import Text
 
 from i7000 import Noise, Profile, Protocol, Reading, Status, TypeCode, dcon, modbus
-from i7000.cli.records import fault_words
+from i7000.cli.records import wrong_words
 from i7000.cli.text import escaped
-from i7000.dissect import ChannelReading, Item, Knowledge, Known, Line, Meaning, hear_frame
+from i7000.dissect import ChannelReading, Heard, Item, Knowledge, Known, Line, Meaning, hear_frame
+from i7000.dissect.stream import looks_like
 from i7000.simulator.observed import Change, Observed
 
 __all__ = ["INDENT", "change_line", "lines", "reading_text", "readings_text"]
@@ -107,12 +108,23 @@ def _meant(text: str, name: str, *details: Text) -> Text:
     return Text("  ").join((Text(text, "bold"), *filter(None, (Text(name, "cyan"), meaning))))
 
 
-def _not_meant(text: str, reason: str) -> Text:
-    return Text().append(text, "bold").append(f"  {escaped(reason)}", "red")
+def _not_meant(text: str, reason: str, heard: Heard) -> Text:
+    """Return a frame or noise in a line, with the reason and the likely causes."""
+    reasons = escaped("; ".join((reason, *heard.notes)))
+    return Text().append(text, "bold").append(f"  {reasons}", "red")
+
+
+def _not_understood(text: str, heard: Heard) -> Text:
+    return _not_meant(text, f"not understood: {wrong_words(heard)}", heard)
 
 
 def _noise(text: str, noise: Noise) -> Text:
-    return _not_meant(text, f"no frame: {noise.fault.value}")
+    _, heard = hear_frame(Line(), noise.wire, looks_like(noise.wire))
+    return _not_meant(text, f"no frame: {noise.fault.value}", heard)
+
+
+def _notes(heard: Heard) -> list[Text]:
+    return [Text(escaped(note), "yellow") for note in (*heard.notes, *heard.contradictions)]
 
 
 def _for_nobody(observed: Observed) -> list[Text]:
@@ -139,18 +151,18 @@ def _dcon(observed: Observed) -> _Pieces:
     if isinstance(heard, Noise):
         return _noise(_dcon_text(heard.wire), heard), answer
     text = _dcon_text(heard)
-    line, asked = hear_frame(_line(profile, Protocol.DCON), heard, Protocol.DCON)
+    line, asked = hear_frame(_line(profile, Protocol.DCON), heard, Protocol.DCON, sent=True)
     if profile is None:
         for meaning in asked.meanings:
             if isinstance(meaning.message, dcon.Broadcast):
                 return _meant(text, type(meaning.message).__name__, Text("to all modules")), answer
         return _meant(text, "", *_for_nobody(observed)), answer
     if asked.error is not None:
-        return _not_meant(text, f"not understood: {fault_words(asked.error)}"), answer
+        return _not_understood(text, asked), answer
     (meaning,) = asked.meanings
     if observed.answer is not None and isinstance(meaning.message, dcon.Command):
         answer = _dcon_answer(observed.answer, line)
-    return _meant(text, type(meaning.message).__name__, *_words(meaning)), answer
+    return _meant(text, type(meaning.message).__name__, *_words(meaning), *_notes(asked)), answer
 
 
 def _dcon_text(wire: bytes) -> str:
@@ -160,11 +172,12 @@ def _dcon_text(wire: bytes) -> str:
 
 def _dcon_answer(wire: bytes, line: Line) -> Text:
     text = _dcon_text(wire)
-    _, heard = hear_frame(line, wire, Protocol.DCON)
+    _, heard = hear_frame(line, wire, Protocol.DCON, sent=False)
     if heard.error is not None:
-        return _not_meant(text, f"not understood: {fault_words(heard.error)}")
+        return _not_understood(text, heard)
     (meaning,) = heard.meanings
-    return _meant(text, type(meaning.message).__name__, readings_text(meaning.readings), *_words(meaning))
+    details = [readings_text(meaning.readings), *_words(meaning), *_notes(heard)]
+    return _meant(text, type(meaning.message).__name__, *details)
 
 
 # --- Modbus -----------------------------------------------------------------------------------------------------------
@@ -176,15 +189,15 @@ def _modbus(observed: Observed) -> _Pieces:
     if isinstance(heard, Noise):
         return _noise(_modbus_text(heard.wire), heard), answer
     text = _modbus_text(heard)
-    line, asked = hear_frame(_line(profile, Protocol.MODBUS_RTU), heard, Protocol.MODBUS_RTU)
+    line, asked = hear_frame(_line(profile, Protocol.MODBUS_RTU), heard, Protocol.MODBUS_RTU, sent=True)
     if asked.error is not None:
-        return _not_meant(text, f"not understood: {fault_words(asked.error)}"), answer
+        return _not_understood(text, asked), answer
     (meaning,) = asked.meanings
     details = _modbus_words(meaning, mapped=profile is not None)
     if asked.address == modbus.BROADCAST:
         details.append(Text("to all modules"))
-    elif profile is None:
-        details += _for_nobody(observed)
+    else:
+        details += _notes(asked) if profile is not None else [*_notes(asked), *_for_nobody(observed)]
     if observed.answer is not None:
         answer = _modbus_answer(observed.answer, line, mapped=profile is not None)
     return _meant(text, type(meaning.message).__name__, *details), answer
@@ -197,11 +210,11 @@ def _modbus_text(wire: bytes) -> str:
 
 def _modbus_answer(wire: bytes, line: Line, *, mapped: bool) -> Text:
     text = _modbus_text(wire)
-    _, heard = hear_frame(line, wire, Protocol.MODBUS_RTU)
+    _, heard = hear_frame(line, wire, Protocol.MODBUS_RTU, sent=False)
     if heard.error is not None:
-        return _not_meant(text, f"not understood: {fault_words(heard.error)}")
+        return _not_understood(text, heard)
     (meaning,) = heard.meanings
-    return _meant(text, type(meaning.message).__name__, *_modbus_words(meaning, mapped=mapped))
+    return _meant(text, type(meaning.message).__name__, *_modbus_words(meaning, mapped=mapped), *_notes(heard))
 
 
 def _modbus_words(meaning: Meaning, *, mapped: bool) -> list[Text]:

@@ -10,7 +10,7 @@ from functools import lru_cache
 from itertools import zip_longest
 from typing import NamedTuple
 
-from attrs import evolve, field
+from attrs import field
 
 from i7000 import dcon, modbus
 from i7000.arguments import LARGEST_FLOAT, as_bytes, as_tuple, check_clock, check_seconds, check_type
@@ -127,8 +127,9 @@ class Bus:
         """Check the time and the signals of each module."""
         check_clock(now, self.clock)
         signals = as_tuple("signals", signals)
-        for own in signals:
-            check_type("signals", own, Signals)
+        if not {Signals}.issuperset(map(type, signals)):
+            for own in signals:
+                check_type("signals", own, Signals)
         if len(signals) != len(self.modules):
             raise InvalidValueError("signals", len(signals), f"{len(self.modules)}, one for each module", "")
         return signals
@@ -160,12 +161,9 @@ class Bus:
                 left.append((reception, rest))
         if len(data) > 1 and _is_mixed(found):
             return self._hear_in_turn(ear, data, signals, now)
-        bus, ear, told = self._hear(evolve(ear, rests=tuple(left)), found, signals, now)
-        return (
-            bus,
-            evolve(ear, dcon_reported=ear.dcon_reported or any(it.protocol is Protocol.DCON for it in told)),
-            told,
-        )
+        bus, told = self._hear(ear, found, signals, now)
+        reported = ear.dcon_reported or any(it.protocol is Protocol.DCON for it in told)
+        return bus, Ear(ear.uart, rests=tuple(left), dcon_reported=reported), told
 
     def _hear_in_turn(
         self, ear: Ear, data: bytes, signals: Sequence[Signals], now: float
@@ -187,37 +185,42 @@ class Bus:
         left = tuple((reception, rest) for reception, rest in ear.rests if reception.protocol is Protocol.DCON)
         if ear.dcon_reported:
             found = [(reception, part) for reception, part in found if not isinstance(part, Noise)]
-        return self._hear(evolve(ear, rests=left, dcon_reported=False), found, signals, now)
+        bus, told = self._hear(ear, found, signals, now)
+        return bus, Ear(ear.uart, rests=left), told
 
     def _hear(
         self, ear: Ear, found: Sequence[tuple[Reception, bytes | Noise]], signals: Sequence[Signals], now: float
-    ) -> tuple["Bus", Ear, tuple[Heard, ...]]:
-        bus, told = self, []
+    ) -> tuple["Bus", tuple[Heard, ...]]:
+        modules, told = list(self.modules), []
         for reception, part in found:
             if isinstance(part, Noise):
                 told.append(Heard(part, reception.protocol))
             else:
-                bus, heard = bus._hear_frame(ear, reception, part, signals, now)
-                told.append(heard)
-        return evolve(bus, clock=now), ear, _without_foreign_noise(told)
+                told.append(_hear_frame(modules, ear, reception, part, signals, now))
+        return Bus(tuple(modules), clock=now), _without_foreign_noise(told)
 
-    def _hear_frame(
-        self, ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float
-    ) -> tuple["Bus", Heard]:
-        places = [place for place, module in enumerate(self.modules) if _reception(module, ear) == reception]
-        listening = Bus(tuple([self.modules[place] for place in places]))
-        listening, answer = listening.step(frame, [signals[place] for place in places], now)
-        after = list(self.modules)
-        for place, module in zip(places, listening.modules, strict=True):
-            after[place] = module
-        asked = next((place for place in places if is_for(self.modules[place], frame)), None)
-        if asked is None:
-            return Bus(tuple(after), clock=now), Heard(frame, reception.protocol)
-        if answer is not None and ear.uart is not None and reception.uart is not None:
-            answer = hear_at(answer, reception.uart, ear.uart)
-        module = self.modules[asked]
-        bus = Bus(tuple(after), clock=now)
-        return bus, Heard(frame, reception.protocol, asked, module.profile, answer, module.response_delay)
+
+def _hear_frame(  # noqa: PLR0913, PLR0917 - those of the bus
+    modules: list[State], ear: Ear, reception: Reception, frame: bytes, signals: Sequence[Signals], now: float
+) -> Heard:
+    """Give a frame to the modules that receive it, and replace their states."""
+    asked: int | None = None
+    before: State | None = None
+    answers = []
+    for place, module in enumerate(modules):
+        if _reception(module, ear) != reception:
+            continue
+        if before is None and is_for(module, frame):
+            asked, before = place, module
+        modules[place], answer = step(module, frame, signals[place], now)
+        if answer is not None:
+            answers.append(answer)
+    if before is None:
+        return Heard(frame, reception.protocol)
+    heard = _collided(answers)
+    if heard is not None and ear.uart is not None and reception.uart is not None:
+        heard = hear_at(heard, reception.uart, ear.uart)
+    return Heard(frame, reception.protocol, asked, before.profile, heard, before.response_delay)
 
 
 _AT_ANY_LINE = {protocol: Reception(protocol, None) for protocol in Protocol}

@@ -46,6 +46,8 @@ def dcon_causes(wire: bytes, module: Module, asked: bytes | None) -> Iterator[st
     upper = body.upper()
     if upper != body and _name(reader, upper, asked):
         yield f"lower case: in upper case it is {_name(reader, upper, asked)}"
+    elif upper != body and known.checksum and (name := _name(reader_of(evolve(known, checksum=False)), upper, asked)):
+        yield f"lower case and no checksum: it would be {name}, with the checksum {dcon.checksum(upper):02X}"
     if asked is not None and body[:1] == b">":
         yield from _format_causes(body, known, asked)
         yield from _model_causes(body, known, asked)
@@ -209,4 +211,8 @@ def register_notes(meaning: Meaning) -> Iterator[str]:
     first = _NUMBERED.get(message.pdu[:2])
     start = next((getattr(message, name) for name in ("start", "register", "coil") if hasattr(message, name)), None)
     if first and start is not None and first < start <= first + _NUMBERS_A_KIND:
-        yield f"{start:05} is a number of the manual: in a frame it is address {start - first - 1} (3.2)"
+        mistaken = meaning.items[0].number
+        yield (
+            f"{start:05} is a number of the manual: in a frame it is address {start - first - 1} (3.2); "
+            f"address {start} would be number {mistaken}"
+        )

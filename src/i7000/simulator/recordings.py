@@ -27,6 +27,7 @@ MOST_BYTES = 200_000_000
 MOST_ROWS = 2_000_000
 _BLOCK = 1 << 16
 """The number of characters read at once, and so the longest line."""
+_TWICE = 2
 _SHOWN = 60
 """The maximum number of characters of a file shown in a message."""
 
@@ -73,11 +74,12 @@ def _header(text: TextIO, names: Collection[str]) -> tuple[int, list[str]]:
     while not any(header) and (read := text.readline(_BLOCK)):
         line, header = line + 1, _cells(line + 1, read)
     for name in names:
-        if header.count(name) != 1:
+        times = header.count(name)
+        if times != 1:
             found = ", ".join(header)[:_SHOWN] or "none"
-            raise InvalidValueError(
-                "columns", header, f"exactly one of them must be {name}", "", f"line {line}: the columns are {found}"
-            )
+            wrong = f"{name} must be there once, not {'twice' if times == _TWICE else f'{times} times'}"
+            allowed = wrong if times else f"they must include {name}"
+            raise InvalidValueError("columns", header, allowed, "", f"line {line}: the columns are {found}")
     return line, header
 
 

@@ -211,8 +211,8 @@ def test_what_the_module_does_not_have_is_skipped_with_the_reason() -> None:
     [
         (["colour"], "the snapshot has no setting 'colour': "),
         ("type_code.9", "the snapshot has no setting 'type_code.9'"),
-        ([1], "names cannot be 1 (int): str or Change"),
-        (1, "names cannot be 1 (int): an iterable"),
+        ([1], "names must be str or Change, not 1 (int)"),
+        (1, "names must be an iterable, not 1 (int)"),
     ],
 )
 def test_a_name_that_the_snapshot_does_not_have_is_refused_at_once(names: Any, words: str) -> None:
