@@ -331,7 +331,7 @@ LEFT_OUT = {
             "host.TimedOut", "host.Transmit", "procedures.Result", "procedures.Tell",
             "procedures.Candidate", "procedures.ChannelFault", "procedures.Finding", "procedures.Identified",
             "procedures.Place", "procedures.Progress", "procedures.Report", "procedures.Scanned", "procedures.Unknown",
-            "procedures.Change", "procedures.Restoration", "procedures.Restored", "procedures.Setting",
+            "procedures.Change", "procedures.Restoration", "procedures.Restored", "procedures.Setting", "procedures.Writing",
             "device.Heard", "device.Record", "dissect.ChannelReading",
             "dissect.Field", "dissect.Fit", "dissect.Found", "dissect.Heard", "dissect.Item",
             "dissect.Meaning", "dissect.Piece", "dissect.Place",

@@ -31,8 +31,8 @@ __all__ = ["app", "run"]
 app = App(
     name="i7000",
     help="Read ICP DAS I-7000 / M-7000 analog input modules, find, configure and simulate them; decode and encode"
-    " their protocols, DCON and Modbus RTU.\n\nExample: `i7000 decode '$012' '!01050600'`\n\nEvery command also exits with 2 if the"
-    " output cannot be written, 130 after Ctrl-C, 141 if the reader of the output stops early.",
+    " their protocols, DCON and Modbus RTU.\n\nExample: `i7000 decode '$012' '!01050600'`\n\nEvery command also exits"
+    " with 2 if the output cannot be written, 130 after Ctrl-C, 141 if the reader of the output stops early.",
     help_format="markdown",
     suppress_keyboard_interrupt=False,
 )

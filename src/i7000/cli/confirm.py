@@ -21,7 +21,7 @@ def check_can_ask(why: str, *, yes: bool) -> None:
 
 
 def confirmed(why: str, question: str, printer: Printer, *, yes: bool) -> bool:
-    """Say why there is a question, ask it, and return whether the answer is yes; with `yes`, nothing is asked.
+    """Return whether the answer to a question is yes, after the reason for it; with `yes`, nothing is asked.
 
     Errors: `UsageError` if there is no terminal.
     """

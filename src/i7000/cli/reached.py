@@ -75,7 +75,7 @@ def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observ
 
 
 def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = None) -> Reached:
-    """Ask a module what it is.
+    """Identify the module that is asked.
 
     Shape: `note` gets that in words; a module that can be several models is taken for `like`, if that is one of them.
     Errors: `LineError` if it does not answer, `UsageError` for a module of an unknown model, and for what is given and

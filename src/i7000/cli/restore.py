@@ -44,9 +44,13 @@ def restore(  # noqa: PLR0913 - each of them is an option
     could lose the module is left alone unless you name it: `address`, `baud_rate`, `character_format`, `protocol`,
     `checksum`. A file of another model is refused unless you name the settings.
 
-    What became of each setting: `done`, `already so`, `pending` (in use from the next power-on), `refused`, `needs
-    INIT` (the module changes it only with its INIT switch on), `not verified` (it reads back as another value), `in
-    doubt` (the module stopped answering after it was written), `unread` or `skipped` (nothing was written).
+    What can become of a setting:
+
+    * `done`, `already so`: it is as wanted. `pending`: it is in use from the next power-on.
+    * `refused`: the module did not take it. `needs INIT`: it takes it only with its INIT switch on.
+    * `not verified`: it reads back as another value.
+    * `in doubt`: the module stopped answering after it was written.
+    * `unread`, `skipped`: nothing was written.
 
     Ctrl-C stops after the setting at hand; a second one stops at once.
 
@@ -56,9 +60,9 @@ def restore(  # noqa: PLR0913 - each of them is an option
 
     Example: `i7000 restore /dev/ttyUSB0 oven.json type_code filter --yes`
 
-    Exit code: 0 if all settings are as wanted, 1 if one was refused or not verified or you said no, 2 for wrong usage,
-    3 if the port cannot be opened or the module does not answer, 6 if the module was left changed: a setting is in
-    doubt, or it stopped answering in the middle; 130 after Ctrl-C.
+    Exit code: 0 if all settings are as wanted, 1 if one was refused or not verified or you said no; 2 for wrong usage,
+    3 if the port cannot be opened or the module does not answer; 6 if the module was left changed, since a setting is
+    in doubt or the module stopped answering in the middle; 130 after Ctrl-C.
     """
     from i7000.cli.reached import reach, run  # noqa: PLC0415 - it takes time
 

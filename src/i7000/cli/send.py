@@ -66,9 +66,9 @@ def send(  # noqa: PLR0913 - each of them is an option
 
     Example: `i7000 send sim:M-7019R WriteSingleRegister address=1 register=host_watchdog_timeout value=2.5`
 
-    Exit code: 0 if the module carried it out, or a broadcast was sent; 1 if the module refused it or you said no, 2 for
-    wrong usage, 3 if the port cannot be opened or the module does not answer, 6 if you broke it off after it was sent,
-    so that the module may be changed; 130 after Ctrl-C.
+    Exit code: 0 if the module carried it out or a broadcast was sent, 1 if the module refused it or you said no; 2 for
+    wrong usage, 3 if the port cannot be opened or the module does not answer; 6 if you broke off a command that may
+    have changed the module; 130 after Ctrl-C.
     """
     from i7000.cli.reached import run  # noqa: PLC0415 - it takes time
     from i7000.cli.sending import Traffic  # noqa: PLC0415 - it takes time

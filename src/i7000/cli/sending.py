@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from i7000 import Profile, Protocol
 from i7000.cli.readers import Read
 from i7000.dissect import Heard, Knowledge, Known, Line, flush, hear, hear_frame
-from i7000.errors import Noise, shown
+from i7000.errors import Noise
 from i7000.host import Late, Rejected
 from i7000.link import Happened, Observed, Received, Written
 
@@ -46,7 +46,7 @@ class Traffic:
             self._line, found = hear(self._line, observed.data, sent=False)
             self._keep(found, observed.at, sent=False)
         elif isinstance(observed, Happened):
-            self.notes += event_notes(observed.event)
+            self.notes += event_notes(observed.event, self._protocol)
 
     def end(self, at: float | None = None) -> None:
         """Take what was heard as complete."""
@@ -56,26 +56,26 @@ class Traffic:
     def _keep(self, found: tuple[Heard, ...], at: float, *, sent: bool) -> None:
         for heard in found:
             after = f"+{at - self._began:.3f} s"
-            text = f"{after:>10}  {'->' if sent else '<-'} {_frame(heard)}"
+            text = f"{after:>10}  {'->' if sent else '<-'} {_text(heard.wire, heard.protocol)}"
             number = heard.place.number
             self.reads.append(Read(number, number, number, text, None, heard))
 
 
-def _frame(heard: Heard) -> str:
-    if heard.protocol is Protocol.DCON:
-        return heard.wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
-    return heard.wire.hex(" ").upper()
+def _text(wire: bytes, protocol: Protocol) -> str:
+    if protocol is Protocol.DCON:
+        return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+    return wire.hex(" ").upper()
 
 
-def event_notes(event: object) -> Iterator[str]:
+def event_notes(event: object, protocol: Protocol) -> Iterator[str]:
     r"""Yield what the driver did not take for the response, in words.
 
-    >>> [*event_notes(Late(b"!01\r"))]
-    ['late or duplicate, and dropped: !01\\r']
+    >>> [*event_notes(Late(b"!01\r"), Protocol.DCON)]
+    ['late or duplicate, and dropped: !01']
     """
     if isinstance(event, Rejected):
-        yield f"not the response: {shown(event.wire)}: {event.reason}"
+        yield f"not the response: {_text(event.wire, protocol)}: {event.reason}"
     elif isinstance(event, Late):
-        yield f"late or duplicate, and dropped: {shown(event.wire)}"
+        yield f"late or duplicate, and dropped: {_text(event.wire, protocol)}"
     elif isinstance(event, Noise):
-        yield f"noise, or a damaged frame: {shown(event.wire)}"
+        yield f"noise, or a damaged frame: {_text(event.wire, protocol)}"

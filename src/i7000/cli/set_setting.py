@@ -54,9 +54,9 @@ def set_setting(  # noqa: PLR0913 - each of them is an option
 
     Example: `i7000 set /dev/ttyUSB0 type_code.0=K filter=reject_50_hz --address 2`
 
-    Exit code: 0 if all settings are as wanted, 1 if one was refused or not verified or you said no, or could not be
-    read for `--list`; 2 for wrong usage, 3 if the port cannot be opened or the module does not answer, 6 if the module
-    was left changed: a setting is in doubt, or it stopped answering in the middle; 130 after Ctrl-C.
+    Exit code: 0 if all settings are as wanted, 1 if one was refused, not verified or not read, or you said no; 2 for
+    wrong usage, 3 if the port cannot be opened or the module does not answer; 6 if the module was left changed, since a
+    setting is in doubt or the module stopped answering in the middle; 130 after Ctrl-C.
     """
     from i7000.cli.reached import reach, run  # noqa: PLC0415 - it takes time
 
