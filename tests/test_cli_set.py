@@ -1,6 +1,8 @@
 """``i7000 set``: settings by their names, one after the other."""
 
+import os
 import re
+import signal
 from typing import Any
 
 import pytest
@@ -228,6 +230,29 @@ def test_a_baud_rate_that_needs_init_is_explained(workbench: Bench) -> None:
         " power it on with its INIT switch on, and ask again with --address 0\n"
     )
     assert told.code == 1
+
+
+@pytest.mark.usefixtures("answered")
+def test_ctrl_c_at_a_question_changes_nothing(workbench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = workbench(KELVIN)
+
+    def interrupted(*_: object) -> str:
+        os.kill(os.getpid(), signal.SIGINT)
+        return "yes"
+
+    monkeypatch.setattr("i7000.cli.confirm._answer", interrupted)
+    told = bench("set", "address=5")
+
+    assert (told.code, bench.eeprom) == (130, KELVIN.eeprom)
+
+
+def test_the_protocol_has_its_name_of_the_terminal(workbench: Bench) -> None:
+    bench = workbench(module(Model.M_7019R, init_switch=True))
+
+    told = bench("set", "protocol=rtu", "--yes", "--address", "0")
+
+    assert "dcon -> modbus_rtu" in told.out
+    assert (told.code, bench.eeprom.protocol) == (0, Protocol.MODBUS_RTU)
 
 
 def test_a_baud_rate_is_set_in_init_mode_and_used_after_the_next_power_on(workbench: Bench) -> None:

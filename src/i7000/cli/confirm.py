@@ -31,7 +31,11 @@ def confirmed(why: str, question: str, printer: Printer, *, yes: bool) -> bool:
     printer.flush()
     sys.stderr.write(f"{why}. {question} [y/N] " if why else f"{question} [y/N] ")
     sys.stderr.flush()
-    return sys.stdin.readline(_LONGEST_ANSWER).strip().lower() in _YES
+    return _answer().strip().lower() in _YES
+
+
+def _answer() -> str:
+    return sys.stdin.readline(_LONGEST_ANSWER)
 
 
 def _is_terminal() -> bool:

@@ -12,10 +12,12 @@ from attrs import define, evolve, frozen
 
 from i7000 import InvalidValueError, Model, Profile, Protocol
 from i7000.cli.asked import Asked
+from i7000.cli.confirm import confirmed
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
 from i7000.cli.silence import silence_cause
 from i7000.cli.station import at_words, found_words, merged
 from i7000.cli.stored import stored_settings
+from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
 from i7000.host.procedures import Identified, Procedure, identify
@@ -39,6 +41,11 @@ class OpenLine:
         """Carry out a procedure that changes nothing; a signal breaks it off."""
         with self.ending.breakable():
             return self.line.run(procedure)
+
+    def consents(self, why: str, question: str, printer: Printer, *, yes: bool) -> bool:
+        """Return whether the user says yes to a question, see `confirmed`; a signal breaks it off."""
+        with self.ending.breakable():
+            return confirmed(why, question, printer, yes=yes)
 
 
 @define

@@ -6,7 +6,7 @@ from cyclopts import Parameter
 
 from i7000 import InvalidValueError
 from i7000.cli.asked import DEFAULT_ONE, OneModule, Yes, asked_of
-from i7000.cli.confirm import check_can_ask, confirmed
+from i7000.cli.confirm import check_can_ask
 from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
 from i7000.cli.setting_text import LOSES, change_table
@@ -106,7 +106,7 @@ def _change(there: "Reached", wanted: Snapshot, chosen: frozenset[str], printer:
         return 0
     if not printer.json:
         printer.lines(change_table(changes, wanted.model, ("now", "restored")))
-    if not confirmed("", f"Change this at {there.words}?", printer, yes=yes):
+    if not there.open.consents("", f"Change this at {there.words}?", printer, yes=yes):
         printer.error("nothing was changed")
         return 1
     doing = Changes(there, printer, frozenset(it.name for it in changes))

@@ -8,7 +8,6 @@ from cyclopts import Parameter
 
 from i7000 import InvalidValueError, Model, Profile, Protocol, dcon, modbus
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, Yes, asked_of
-from i7000.cli.confirm import confirmed
 from i7000.cli.frame_text import frame_lines
 from i7000.cli.message import make, refusal_words
 from i7000.cli.module import named
@@ -85,7 +84,7 @@ def send(  # noqa: PLR0913 - each of them is an option
         danger = danger_of(command)
         if danger is not None:
             words = f"{type(command).__name__} {_DANGERS[danger]}"
-            if not confirmed(words, "Send it?", printer, yes=yes):
+            if not open_line.consents(words, "Send it?", printer, yes=yes):
                 printer.error("nothing was sent")
                 return 1
         traffic.begin(getattr(command, "address", None), profile, spoken)

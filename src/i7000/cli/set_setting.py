@@ -7,7 +7,7 @@ from cyclopts import Parameter
 
 from i7000 import InvalidValueError, Profile, Protocol
 from i7000.cli.asked import DEFAULT_ONE, LEFT_CHANGED, OneModule, Yes, asked_of
-from i7000.cli.confirm import check_can_ask, confirmed
+from i7000.cli.confirm import check_can_ask
 from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
 from i7000.cli.setting_text import LOSES, listed_lines, listed_record
@@ -75,7 +75,7 @@ def set_setting(  # noqa: PLR0913 - each of them is an option
             return _list(there, printer)
         wanted = [one for name, text in pairs for one in _wanted(there.profile, there.protocol, name, text)]
         _check_once(wanted)
-        if risky and not confirmed(_risk(pairs, risky), f"Change it at {there.words}?", printer, yes=yes):
+        if risky and not open_line.consents(_risk(pairs, risky), f"Change it at {there.words}?", printer, yes=yes):
             printer.error("nothing was changed")
             return 1
         return _change(there, wanted, printer)

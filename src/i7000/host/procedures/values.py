@@ -14,7 +14,7 @@ from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.names import LONGEST_NAME, is_name
 from i7000.profile import Profile
-from i7000.settings import BaudRate, CharacterFormat, channels_of, is_int, mask_of
+from i7000.settings import BaudRate, CharacterFormat, Protocol, channels_of, is_int, mask_of
 from i7000.type_codes import TypeCode
 
 __all__ = ["Channels", "Choice", "Name", "Plain", "Quantity", "Values", "choices", "switch", "types"]
@@ -246,7 +246,8 @@ def choices(kind: type[Enum]) -> Choice:
     if kind is BaudRate:
         return Choice(tuple((rate.bits_per_second, rate) for rate in BaudRate))
     upper = kind is CharacterFormat
-    return Choice(tuple((member.name if upper else member.name.lower(), member) for member in kind))
+    aliases = (("rtu", Protocol.MODBUS_RTU),) if kind is Protocol else ()
+    return Choice(tuple((member.name if upper else member.name.lower(), member) for member in kind), aliases)
 
 
 def types(profile: Profile) -> Choice:
