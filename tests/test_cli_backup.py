@@ -3,6 +3,8 @@
 import json
 import os
 import stat
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -264,3 +266,33 @@ def test_without_a_standard_input_nothing_is_read_from_it(monkeypatch: pytest.Mo
 
     with pytest.raises(UsageError, match="no standard input"):
         read_snapshot("-")
+
+
+SCRIPT = """
+import sys
+sys.modules["serial"] = None
+from i7000.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("backup", "sim:I-7018", "-"),
+        ("diff", "sim:I-7018", "FILE"),
+        ("restore", "sim:I-7018", "FILE", "--yes"),
+        ("set", "sim:I-7018", "name=OVEN"),
+        ("send", "sim:I-7018", "ReadConfiguration", "address=1"),
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_without_pyserial_its_extra_is_named(arguments: tuple[str, ...], tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    path.write_text(Snapshot(Model.I_7018).to_json())
+    given = [str(path) if it == "FILE" else it for it in arguments]
+
+    told = subprocess.run([sys.executable, "-c", SCRIPT, *given], capture_output=True, text=True, check=False)  # noqa: S603
+
+    assert told.stderr == 'i7000: no module serial; this needs: pip install "i7000[serial]"\n'
+    assert told.returncode == 2

@@ -10,6 +10,7 @@ from attrs import evolve
 
 from i7000 import BaudRate, LineSettings, Model, Protocol, TypeCode
 from i7000.cli.snapshot_file import read_snapshot
+from i7000.cli.text import Printer
 from i7000.host.procedures import Snapshot
 from i7000.simulator.faults import Faults
 from tests.simulator.running import module
@@ -170,7 +171,7 @@ def test_you_are_asked_after_what_would_change_is_shown(
 
     told = bench("restore", file(tmp_path), stdin=answer)
 
-    assert "Change this at M-7019R at address 01? [y/N] " in told.err
+    assert "Change these settings of M-7019R at address 01? [y/N] " in told.err
     assert (told.code, bench.eeprom.name) == (code, name)
 
 
@@ -263,6 +264,21 @@ def lose_port(bench: Workbench, wire: bytes, time: int) -> None:
             raise OSError("the port is gone")
 
     bench.port.before_write = look
+
+
+def test_an_output_that_nobody_reads_any_more_leaves_the_module_changed(
+    workbench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = workbench(KELVIN)
+
+    def closed(*_: object) -> None:
+        raise BrokenPipeError("nobody reads")
+
+    monkeypatch.setattr(Printer, "record", closed)
+    told = bench("restore", file(tmp_path), "--yes")
+
+    assert told.err.splitlines()[-1] == "i7000: nobody reads: type_code.0 was changed before"
+    assert told.code == 6
 
 
 # --- Ctrl-C -----------------------------------------------------------------------------------------------------------

@@ -202,7 +202,7 @@ def test_what_could_lose_the_module_asks(answer: bytes, address: int, workbench:
 
     told = bench("set", "address=5", stdin=answer)
 
-    assert "address=5 could lose the module. Change it at M-7019R at address 01? [y/N] " in told.err
+    assert "address=5 could lose the module. Change it on M-7019R at address 01? [y/N] " in told.err
     assert (told.code, bench.eeprom.address) == (0 if address == 5 else 1, address)
     assert ("nothing was changed" in told.err) is (address == 1)
 

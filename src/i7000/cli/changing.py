@@ -16,7 +16,6 @@ from i7000.cli.text import Printer
 from i7000.cli.words import LineError
 from i7000.host.procedures import Procedure, Restoration, Restored, Status, Writing
 from i7000.host.procedures.inquiry import GONE
-from i7000.link import LinkError
 
 __all__ = ["Changes", "code_of"]
 
@@ -52,14 +51,14 @@ class Changes:
         """Change settings, and show what becomes of them; `names` are those that are to be changed.
 
         Shape: None if the procedure came to its end; or else the exit code.
-        Errors: `LineError` if the port is lost before anything was changed.
+        Errors: `OSError` if the port is lost, or the output cannot be written, before anything was changed.
         """
         there, ending = self.there, self.there.open.ending
         try:
             restoration = there.open.line.run(procedure, self._tell)
         except KeyboardInterrupt:
             return self._stopped("stopped", 128 + (ending.number or SIGINT))
-        except LinkError as error:
+        except OSError as error:  # the port is lost, or nobody reads the output
             if not self._writing and not self._changed:
                 raise
             return self._stopped(str(error), LEFT_CHANGED)

@@ -106,7 +106,7 @@ def _change(there: "Reached", wanted: Snapshot, chosen: frozenset[str], printer:
         return 0
     if not printer.json:
         printer.lines(change_table(changes, wanted.model, ("now", "restored")))
-    if not there.open.consents("", f"Change this at {there.words}?", printer, yes=yes):
+    if not there.open.consents("", f"Change these settings of {there.words}?", printer, yes=yes):
         printer.error("nothing was changed")
         return 1
     doing = Changes(there, printer, frozenset(it.name for it in changes))

@@ -75,7 +75,7 @@ def set_setting(  # noqa: PLR0913 - each of them is an option
             return _list(there, printer)
         wanted = [one for name, text in pairs for one in _wanted(there.profile, there.protocol, name, text)]
         _check_once(wanted)
-        if risky and not open_line.consents(_risk(pairs, risky), f"Change it at {there.words}?", printer, yes=yes):
+        if risky and not open_line.consents(_risk(pairs, risky), f"Change it on {there.words}?", printer, yes=yes):
             printer.error("nothing was changed")
             return 1
         return _change(there, wanted, printer)
