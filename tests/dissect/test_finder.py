@@ -213,6 +213,23 @@ def test_bytes_behind_a_frame_in_its_own_spelling_are_found_as_damaged() -> None
     assert (frame.wire, noise.wire) == (RESPONSE, b"\xff\xff")
 
 
+@pytest.mark.parametrize("separator", [" ", ", ", " | ", "; ", " / "])
+@pytest.mark.parametrize("noise", [b"\xff\xfe", b"\x7f\xe8"])
+def test_bytes_beside_a_frame_are_found_behind_another_separator(separator: str, noise: bytes) -> None:
+    request, others = REQUEST.hex(" ").upper(), noise.hex(" ").upper()
+
+    assert wires(request + separator + others) == [REQUEST, noise]
+    assert wires(others + separator + request) == [noise, REQUEST]
+    assert b"".join(wires(separator.join((others, others, request, others, others)))) == noise * 2 + REQUEST + noise * 2
+
+
+@pytest.mark.parametrize(
+    "after", [", 15 ms", " | 12 34", "; 8", ", 31, CA", " | 0xFF 0xFE", " (31 CA)", ", CRC: 31 CA"]
+)
+def test_numbers_and_another_spelling_beside_a_frame_are_no_part_of_it(after: str) -> None:
+    assert wires(REQUEST.hex(" ").upper() + after) == [REQUEST]
+
+
 @pytest.mark.parametrize("text", ["1: 04 00 00 00 01 31 CA", "1; 4, 0, 0, 0, 1, 49, 202"])
 def test_a_line_number_is_not_the_first_byte_of_a_frame(text: str) -> None:
     assert Kind.MODBUS not in [found.kind for found in find(text)]
