@@ -213,6 +213,23 @@ def test_bytes_behind_a_frame_in_its_own_spelling_are_found_as_damaged() -> None
     assert (frame.wire, noise.wire) == (RESPONSE, b"\xff\xff")
 
 
+@pytest.mark.parametrize("separator", [" ", ", ", " | ", "; ", " / "])
+@pytest.mark.parametrize("noise", [b"\xff\xfe", b"\x7f\xe8"])
+def test_bytes_beside_a_frame_are_found_behind_another_separator(separator: str, noise: bytes) -> None:
+    request, others = REQUEST.hex(" ").upper(), noise.hex(" ").upper()
+
+    assert wires(request + separator + others) == [REQUEST, noise]
+    assert wires(others + separator + request) == [noise, REQUEST]
+    assert b"".join(wires(separator.join((others, others, request, others, others)))) == noise * 2 + REQUEST + noise * 2
+
+
+@pytest.mark.parametrize(
+    "after", [", 15 ms", " | 12 34", "; 8", ", 31, CA", " | 0xFF 0xFE", " (31 CA)", ", CRC: 31 CA"]
+)
+def test_numbers_and_another_spelling_beside_a_frame_are_no_part_of_it(after: str) -> None:
+    assert wires(REQUEST.hex(" ").upper() + after) == [REQUEST]
+
+
 @pytest.mark.parametrize("text", ["1: 04 00 00 00 01 31 CA", "1; 4, 0, 0, 0, 1, 49, 202"])
 def test_a_line_number_is_not_the_first_byte_of_a_frame(text: str) -> None:
     assert Kind.MODBUS not in [found.kind for found in find(text)]
@@ -248,6 +265,64 @@ def test_a_sentence_has_no_frame(text: str) -> None:
 )
 def test_a_damaged_frame_in_the_place_of_one_is_found(text: str, wire: bytes) -> None:
     assert [(it.kind, it.wire) for it in find(text)] == [(Kind.DAMAGED, wire)]
+
+
+@pytest.mark.parametrize(
+    ("text", "wire"),
+    [
+        ("$01\x082\r", b"$01\x082\r"),
+        ("$01\x002\r", b"$01\x002\r"),
+        ("#0\udcb11\r", b"#0\xb11\r"),
+        (r"TX: $\xb112\r", b"$\xb112\r"),
+        ("TX: $0I2", b"$0I2\r"),
+        ("the last was: $0I2\r", b"$0I2\r"),
+        ("12:00:01 -> #0l", b"#0l\r"),
+        ("~*1", b"~*1\r"),
+        (">+OO25.1", b">+OO25.1\r"),
+        ("12:00:01 <- >+00\udcfe\udcb2.1", b">+00\xfe\xb2.1\r"),
+    ],
+)
+def test_a_frame_whose_address_or_text_is_damaged_is_found_where_nothing_else_stands(text: str, wire: bytes) -> None:
+    assert [(it.kind, it.wire) for it in find(text)] == [(Kind.DAMAGED, wire)]
+
+
+def test_a_damaged_frame_behind_a_good_one_is_found_without_its_address() -> None:
+    assert wires("$012 -> !0I0F0600") == [b"$012\r", b"!0I0F0600\r"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "$PATH", "#define\n", "see #v2", "see: #v2", "a@b12", "# comment\r", "-> ?\r", "-->x\r", "really?!\r",
+        "#!/bin/sh", "~/x", "$PATH and 50% done! really?\r", "<td>5</td>\r", "~1%", "well -#define\r",
+    ],
+)  # fmt: skip
+def test_words_behind_a_leading_character_are_no_damaged_frame(text: str) -> None:
+    assert find(text) == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (r"$012\r\xff\xfe", [b"$012\r", b"\xff\xfe"]),
+        (r"$012\r\n\xff", [b"$012\r", b"\xff"]),
+        (r"$012 \xff", [b"$012\r", b"\xff"]),
+        (r"$012\x08\x07", [b"$012\r", b"\x08\x07"]),
+        (r"$012\xff\r", [b"$012\r", b"\xff\r"]),
+        (r"\xff\xfe$012\r", [b"\xff\xfe", b"$012\r"]),
+        (r"\xff $012", [b"\xff", b"$012\r"]),
+        (r"$012\xff#01\r", [b"$012\r", b"\xff", b"#01\r"]),
+        ("$012\r\udcff", [b"$012\r", b"\xff"]),
+        (r'b"$012\r\x00"', [b"$012\r", b"\x00"]),
+    ],
+)
+def test_bytes_that_touch_a_frame_are_found(text: str, found: list[bytes]) -> None:
+    assert wires(text) == found
+
+
+@pytest.mark.parametrize("text", ["caf\udce9 $012", "$012 \udce9t\udce9", "$012\x1b[K"])
+def test_a_letter_of_another_encoding_or_a_command_of_a_terminal_beside_a_frame_is_no_part_of_it(text: str) -> None:
+    assert wires(text) == [b"$012\r"]
 
 
 @pytest.mark.parametrize(

@@ -149,21 +149,40 @@ def _left(
 ) -> Iterator[Found]:
     """Find damaged frames in the bytes from `start` to `end`, which are in no good one.
 
-    Special: bytes that touch a good frame in one of its own styles are always found, however few.
+    Special: bytes that touch a good frame in one of its own styles are always found, however few. Behind another
+        separator they are, if they are several in a style of the frame, and not in decimal.
     """
     before, after = beside
-    while start < end and before and styles[start - 1] in before:
+    while start < end and before:
         stop = start + 1
         while stop < end and styles[stop - 1] in before:
             stop += 1
+        if styles[start - 1] not in before and not _is_a_part(run[start:stop], styles[start - 1]):
+            break
         yield _found(Kind.DAMAGED, run, start, stop)
-        start, before = stop, set()
+        start = stop
     first = end
-    while first > start and after and styles[first - 1] in after:
-        first -= 1
+    while first > start and after:
+        head = first - 1
+        while head > start and styles[head - 1] in after:
+            head -= 1
+        if styles[first - 1] not in after and not _is_a_part(run[head:first], styles[first - 1]):
+            break
+        first = head
     yield from _damaged(run, styles, start, first)
     if first < end:
         yield _found(Kind.DAMAGED, run, first, end)
+
+
+def _is_a_part(run: Run, apart: _Style) -> bool:
+    """Return whether bytes behind another separator are a part of a frame, and not numbers."""
+    letters = any(max(divmod(byte.value, 16)) > _LAST_DECIMAL for byte in run)
+    return len(run) > 1 and letters and not apart.between.strip(_SEPARATORS)
+
+
+_SEPARATORS = " ,;|/:-"
+_LAST_DECIMAL = 9
+"""The last digit that hex and decimal have in common."""
 
 
 def _damaged(run: Run, styles: list[_Style], start: int, end: int) -> Iterator[Found]:

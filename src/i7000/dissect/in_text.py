@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from i7000.dcon import LONGEST_FRAME
+from i7000.dissect.damage import is_direction
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.patterns import pattern
 from i7000.dissect.shapes import is_shaped, report
@@ -10,24 +11,37 @@ from i7000.dissect.spelling import DIRECTIONS, UNITS, in_url, text_of, without_n
 
 __all__ = ["in_text"]
 
+_NO_TEXT = "\0-\x08\x0e-\x1a\x1c-\x1f\x7f\udc80-\udcff"
+"""Characters that sentences have not: control characters, and bytes that are no UTF-8, as `surrogateescape` decodes
+them. Those that format text or begin a command of a terminal are not among them."""
 _LEADING = pattern(r"[%#$~@!>?]")
 _MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
-_UP_TO_END = pattern(r".[ \"&-=A-}]*(?=[\r\n])")
-_WORD = pattern(rf".(?:(?!</)[!-~]){{0,{LONGEST_FRAME}}}")
+_UP_TO_END = pattern(rf".[ \"&-=A-}}{_NO_TEXT}]*(?=[\r\n])")
+_WORD = pattern(rf".(?:(?!</)[!-~{_NO_TEXT}]){{0,{LONGEST_FRAME}}}")
 _CLOSING = "\"'`)]}>,;.|"
-_CUT = pattern(r"[\"'`<,;|&)\]}]|[-=]+>")
+_CUT = pattern(rf"[\"'`<,;|&)\]}}{_NO_TEXT}]|[-=]+>")
 """What ends a frame in the middle of a word, where the word as a whole has no shape."""
 _ADDRESSED = pattern(r".(?:\*\*|[0-9A-F]{2}|[0-9][0-9a-f]|[0-9a-f][0-9])")
 _BARE = len("$01")
 _NEAR = 40
 """Characters beside something that show whether it stands in a sentence."""
-_INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|(?<![^\W_])(?:z+|(?:{DIRECTIONS})[\W_]*))[ ]*$")
+_INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|<-+|(?<![^\W_])(?:z+|(?:{DIRECTIONS})[\W_]*))[ ]*$")
 """What stands before a frame: nothing, a time or a number, a word for the direction, or a sign."""
 _MEASURED = pattern(rf"[~@#$]\d+(?:(?:\.\d+)?\s?(?:{UNITS})\b|:\d\d(?!\d))")
 """``~100 ms``, ``@12:00``."""
-_NO_TEXT = pattern("[\udc80-\udcff]")
-"""A byte that is no UTF-8, as `surrogateescape` decodes it: sentences have none."""
 _NUMBERED = pattern(r">[+-]\d")
+_CLOSED = pattern(
+    rf"(?:[%#$~@!?]|>(?=[+\-{_NO_TEXT}]))(?:[{_NO_TEXT}]|[!-~](?<![%#$~@!>?])){{1,{LONGEST_FRAME}}}(?=\r)"
+)
+"""A word that is closed by a carriage return as a frame is, whatever its address is."""
+_ALONE = pattern(
+    rf"(?:[%#$~@!?](?=.?[0-9*{_NO_TEXT}])[0-9A-Za-z*{_NO_TEXT}]{{2}}|>[+-](?=[0-9A-Za-z.+-]{{4}})[A-Za-z.+-]{{0,7}}\d)"
+    rf"[!-~{_NO_TEXT}]{{0,{LONGEST_FRAME}}}$"
+)
+"""A word at the end of a line that has a digit where a frame has its address or value."""
+_NOISES = "".join(map(chr, (*range(0x09), *range(0x0E, 0x1B), *range(0x1C, 0x20), 0x7F, *range(0xDC80, 0xDD00))))
+_NOISE = pattern(rf"(?:\n?[{_NO_TEXT}]++|[ ][{_NO_TEXT}]++(?![^\W_]))\r?")
+"""Bytes that touch a frame, or are set off by a blank and not a part of a word."""
 
 
 def in_text(text: str) -> Iterator[Found]:
@@ -48,29 +62,49 @@ def in_text(text: str) -> Iterator[Found]:
 
 
 def _frames(characters: str, places: Sequence[int]) -> Iterator[Found]:
-    at = 0
+    at = left = 0
     while leading := _LEADING.search(characters, at):
         start = leading.start()
         at = start + 1
-        kind, end = _ending(characters, start)
+        kind, end = _ending(characters, start, left)
         if kind is not None:
+            yield from _noise_before(characters[left:start], places, start)
             closing = characters[end : end + 1]
             spelled = places[min(end + 1, len(characters))] - places[end] > 1
             feed = closing == "\n" and spelled
             closed = closing in ("\r", "\n")
-            wire = characters[start:end].encode("ascii") + (b"\n" if feed else b"\r")
+            wire = _bytes_of(characters[start:end]) + (b"\n" if feed else b"\r")
             yield Found(Kind.DAMAGED if feed else kind, wire, places[start], places[end + closed])
-            at = end
+            at = left = end + closed if _NOISE.match(characters, end + closed) else end
+            if noise := _NOISE.match(characters, at):
+                yield Found(Kind.DAMAGED, _bytes_of(noise[0].lstrip(" \n")), places[at], places[noise.end()])
+                at = left = noise.end()
 
 
-def _ending(characters: str, start: int) -> tuple[Kind | None, int]:
-    """Return the kind of the frame that starts here, and where it ends; the kind is None if no frame starts here."""
+def _noise_before(before: str, places: Sequence[int], end: int) -> Iterator[Found]:
+    """Yield the bytes that touch a frame from before, and are not the end of a word."""
+    close = before.removesuffix(" ")
+    noise = close[len(close.rstrip(_NOISES)) :]
+    if noise and not close[: -len(noise)][-1:].isalnum():
+        start = end - len(before) + len(close) - len(noise)
+        yield Found(Kind.DAMAGED, _bytes_of(noise), places[start], places[end])
+
+
+def _bytes_of(characters: str) -> bytes:
+    return characters.encode("ascii", "surrogateescape")
+
+
+def _ending(characters: str, start: int, left: int) -> tuple[Kind | None, int]:
+    """Return the kind of the frame that starts here, and where it ends; the kind is None if no frame starts here.
+
+    Shape: what stands before `left` is a part of a frame.
+    """
     if characters[start] == ">":
         found = report().match(characters, start)
         if found:
             return Kind.DCON, found.end()
     if not (_NUMBERED if characters[start] == ">" else _ADDRESSED).match(characters, start):
-        return None, start
+        return _without_address(characters, start, left)
     written = _UP_TO_END.match(characters, start)
     if written is None and start and characters[start - 1].isalnum():
         return None, start
@@ -90,7 +124,18 @@ def _is_apart(characters: str, start: int, end: int) -> bool:
     if not _INTRODUCED.search(before):
         return False
     after = characters[end : end + _NEAR].strip(_CLOSING + " \t\r\n")
-    return end - start > _BARE or not after or _NO_TEXT.match(after) is not None
+    return end - start > _BARE or not after
+
+
+def _without_address(characters: str, start: int, left: int) -> tuple[Kind | None, int]:
+    """Return where a frame whose first characters are damaged ends, if nothing but a frame can stand there."""
+    before = without_numbers(characters[max(left, start - _NEAR) : start])
+    if closed := _CLOSED.match(characters, start):
+        return (Kind.DAMAGED if _INTRODUCED.search(before) else None), closed.end()
+    alone = _ALONE.match(characters, start)
+    if alone is None or not is_direction(before) or _MEASURED.match(characters, start):
+        return None, start
+    return Kind.DAMAGED, alone.end()
 
 
 def _ends(characters: str, start: int, written: int | None) -> Iterator[int]:

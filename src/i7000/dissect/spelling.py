@@ -255,7 +255,7 @@ def text_of(text: str, *, url: bool = False) -> tuple[str, Sequence[int]]:
     r"""Replace every way to write a carriage return, a line feed, a blank and other characters by the character.
 
     Shape: the characters, and where each begins in `text`; one place more is the end of `text`. With `url`, also the
-        characters that URLs encode.
+        characters that URLs encode. Bytes that are not ASCII are as `surrogateescape` decodes them.
 
     >>> text_of("#01<CR>")[0]
     '#01\r'
@@ -270,10 +270,15 @@ def text_of(text: str, *, url: bool = False) -> tuple[str, Sequence[int]]:
     for found in (_SPELLED_IN_URL if url else _SPELLED).finditer(text):
         kind = found.lastgroup or ""
         digits = found[kind]
-        plain = _CHARACTERS.get(kind) or chr(int(digits, _BASES.get(kind, 16)))
+        plain = _CHARACTERS.get(kind) or _plain(int(digits, _BASES.get(kind, 16)))
         characters += (text[at : found.start()], plain)
         places += range(at, found.start() + 1)
         at = found.end()
     if not at:
         return text, range(len(text) + 1)
     return "".join((*characters, text[at:])), [*places, *range(at, len(text) + 1)]
+
+
+def _plain(code: int) -> str:
+    """Return the character of a code; of a byte that is not ASCII, the one that `surrogateescape` decodes it to."""
+    return chr(0xDC00 + code if 0x80 <= code <= 0xFF else code)
