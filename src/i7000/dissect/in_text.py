@@ -26,7 +26,7 @@ _INTRODUCED = pattern(rf"(?i)(?:^|[\"'`]$|[(\[{{<>|=:;,\t&]|(?<![^\W_])(?:z+|(?:
 _MEASURED = pattern(rf"[~@#$]\d+(?:(?:\.\d+)?\s?(?:{UNITS})\b|:\d\d(?!\d))")
 """``~100 ms``, ``@12:00``."""
 _NO_TEXT = pattern("[\udc80-\udcff]")
-"""A byte that is no UTF-8, as `surrogateescape` decodes it: sentences have none."""
+"""A byte that is not UTF-8, as `surrogateescape` decodes it: sentences have none."""
 _NUMBERED = pattern(r">[+-]\d")
 
 

@@ -16,7 +16,7 @@ from i7000.host.procedures import Result
 from i7000.link import LinkError
 from i7000_cli import program
 
-__all__ = ["Task", "failures_said", "program", "read_task"]
+__all__ = ["Task", "failures_reported", "program", "read_task"]
 
 Inputs = dcon.AnalogInputs | modbus.InputRegisters
 """The response of the command of a task."""
@@ -45,7 +45,7 @@ class Task:
             return 1
         try:
             readings = self._readings(result.outcome.response)
-        except DecodeError as error:  # of another module than was told
+        except DecodeError as error:  # of a module other than the given one
             print(error)  # noqa: T201
             return 1
         for channel, reading in enumerate(readings):
@@ -94,7 +94,7 @@ def _address(text: str) -> int:
 
 
 @contextmanager
-def failures_said() -> Generator[None, None, None]:
+def failures_reported() -> Generator[None, None, None]:
     """End the program with the reason if the target is invalid, or if its port cannot be opened or disappears."""
     try:
         yield
