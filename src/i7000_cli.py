@@ -49,7 +49,7 @@ def roomy(output: "TextIO | None") -> "TextIO | None":
         if output is None or output.isatty():
             return output
         descriptor = output.fileno()
-    except OSError:  # It is no file of the system.
+    except OSError:  # It is not a file of the system.
         return output
     return open(descriptor, "w", _ROOM, output.encoding, output.errors, closefd=False)
 

@@ -74,7 +74,7 @@ COMMANDS = (
     [
         ("", f"error: '' is not a command; {COMMANDS}"),
         ("reset 01", f"error: 'reset' is not a command; {COMMANDS}"),
-        ("fault late=2", "error: 'late=2': late cannot be 2.0: 0..1"),
+        ("fault late=2", "error: 'late=2': late cannot be 2: 0..1"),
         ("power-cycle 2", "error: no module has the address 02, only 01, 1Fh (31)"),
         ("power-cycle all", "error: 'all' is not "),
         ("init 01", "error: write init ADDRESS on|off"),

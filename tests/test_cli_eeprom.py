@@ -104,7 +104,7 @@ def test_a_file_that_another_simulator_uses_is_refused(run: Run, tmp_path: Path)
         told = run("simulate", "--model", KELVIN, "--eeprom", str(memory))
 
     assert (told.code, told.out) == (2, "")
-    assert told.err.startswith(f"i7000: {memory}: the file itself: is used by another simulator")
+    assert told.err.startswith(f"i7000: {memory} is used by another simulator")
 
 
 def test_what_a_full_disk_does_not_store_is_not_acknowledged(

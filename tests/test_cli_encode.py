@@ -80,7 +80,11 @@ def test_the_offset_of_a_channel_has_other_counts_than_that_of_the_module(run: R
         ),
         ("SetCjcOffset offset=1A", 2, "offset: '1A' is not a value in degC"),
         ("SetCjcOffset offset=", 2, "offset: '' is not a value in degC"),
-        ("SetCjcOffset offset=50", 1, "offset cannot be 50: -4096..+4096 counts of 0.01 degC, manual 2.18"),
+        ("SetCjcOffset offset=50", 1, "offset cannot be 50: -40.96..40.96 degC in steps of 0.01, manual 2.18"),
+        ("SetCjcOffset offset=700", 1, "offset cannot be 700: -655.35..655.35 degC in steps of 0.01, manual 2.18"),
+        ("SetCjcOffset offset=1388h", 1, "offset cannot be 1388h: -4096..+4096 counts of 0.01 degC, manual 2.18"),
+        ("SetCjcOffset channel=0 offset=400 --protocol rtu", 1, "400: -327.68..327.67 degC in steps of 0.01, manual "),
+        ("SetHostWatchdogTimeout enabled=1 timeout=100h", 1, "100h: 0..255 or 00h..FFh, counts of 0.1 s, manual 2.39"),
         ("SetSoftInitTimeout timeout=61", 1, "timeout cannot be 61: 0..60 s, manual 2.34\n"),
         (
             "SetHostWatchdogTimeout enabled=1 timeout=30s",

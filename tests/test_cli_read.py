@@ -307,7 +307,7 @@ def silence(faults: Faults, line: LineSettings = LineSettings()) -> str:  # noqa
     [
         (Faults(), "it does answer DCON without a checksum now: an unreliable line or a slow module"),
         (Faults(echo=True, silent=1.0), "only the echo of the request came: give --echo"),
-        (Faults(truncate=1.0), "bytes came that are no frame: another --baud or --character-format"),
+        (Faults(truncate=1.0), "bytes came that are not a frame: another --baud or --character-format"),
         (Faults(misaddress=1.0), "a frame came that is not the response"),
     ],
 )

@@ -151,7 +151,7 @@ def faulty(monkeypatch: pytest.MonkeyPatch, faults: Faults) -> list[Any]:
 @pytest.mark.parametrize(
     ("faults", "words"),
     [
-        (Faults(truncate=1.0), "1 time: bytes that are no frame: devices with other line settings, "),
+        (Faults(truncate=1.0), "1 time: bytes that are not a frame: devices with other line settings, "),
         (Faults(echo=True, silent=1.0), "2 times: the echo of the requests: give --echo"),
     ],
 )

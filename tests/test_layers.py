@@ -28,6 +28,7 @@ RINGS = {
     "device": 3,
     "dissect": 3,
     "host": 3,
+    "conformance": 3,
     "strategies": 4,
     "cli": 4,
     "spec": 4,
@@ -36,7 +37,6 @@ RINGS = {
     "link": 4,
     "simulator": 4,
     "recording": 4,
-    "conformance": 4,
 }
 EXTRAS = {
     "strategies": {"hypothesis"},

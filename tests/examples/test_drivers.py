@@ -8,7 +8,7 @@ import pytest
 
 from i7000 import Fault, Noise, dcon
 from i7000.examples import async_driver, sync_driver
-from i7000.examples.task import Task
+from i7000.examples.task import Task, read_task
 from i7000.host import Late, Rejected, TimedOut
 from i7000.host.procedures import Result
 from i7000.link import VirtualPort
@@ -76,13 +76,39 @@ def test_the_programs_can_be_run(
     assert pytest.approx(VOLTS[::-1], abs=1e-4) == [float(value) for value in values]
 
 
-@pytest.mark.parametrize("wrong", [["--type", "Q"], ["--baud", "9601"], ["--address", "G"], ["--model", "I-7020"]])
+@pytest.mark.parametrize("wrong", [["--type", "Q"], ["--baud", "9601"], ["--model", "I-7020"]])
 def test_wrong_arguments_end_a_program_with_what_is_wrong(wrong: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         sync_driver.main(["/dev/null", "--model", "M-7019R", *wrong])
 
     assert ended.value.code == 2
     assert f"argument {wrong[0]}: invalid" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("wrong", "reason"),
+    [
+        (["--address", "1A"], "argument --address: '1A' has hex digits: write 0x1A or 1Ah\n"),
+        (["--address", "300"], "argument --address: an address is 0..255 or 00h..FFh\n"),
+        (["--address", "255", "--modbus"], "error: address cannot be 255: 0..247, manual 3.2\n"),
+        (["--model", "I-7017", "--type", "K"], "error: type_codes cannot be "),
+    ],
+)
+def test_what_no_module_has_ends_a_program_with_what_is_allowed(
+    wrong: list[str], reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        sync_driver.main(["/dev/null", "--model", "M-7019R", *wrong])
+
+    assert ended.value.code == 2
+    assert reason in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("address", ["10", "0x0A", "0Ah"])
+def test_an_address_is_decimal_unless_it_is_marked_as_hex(address: str) -> None:
+    task = read_task(["/dev/null", "--model", "M-7019R", "--address", address])
+
+    assert task.command == dcon.ReadAnalogInputs(10)
 
 
 @either

@@ -176,7 +176,7 @@ def test_a_file_that_another_user_may_write_is_not_replaced(path: Path, monkeypa
 def test_more_than_can_be_loaded_is_not_saved(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "_MOST", 1000)
 
-    with pytest.raises(MemoryFileError, match=r"the file itself: would have \d{4} bytes; allowed: 1000 bytes"):
+    with pytest.raises(MemoryFileError, match=r"would have \d{4} bytes; allowed: 1000 bytes"):
         save(path, MODULES)
 
     assert not path.exists()
@@ -202,9 +202,7 @@ def test_a_file_is_used_by_one_simulator_at_a_time(path: Path) -> None:
             hold(link)
     hold(link)
 
-    assert str(refused.value) == (
-        f"{link}: the file itself: is used by another simulator; allowed: one simulator a file"
-    )
+    assert str(refused.value) == (f"{link} is used by another simulator; allowed: one simulator for each file")
 
 
 def test_a_file_that_cannot_be_locked_is_not_said_to_be_used(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -336,7 +336,7 @@ def test_time_passes_for_modules_that_nobody_talks_to() -> None:
     "error",
     [
         OSError(errno.ENOSPC, "no space", "modules.json"),
-        MemoryFileError("modules.json", "the file itself", "is a device or pipe", "a regular file"),
+        MemoryFileError("modules.json", "the file", "is a device or pipe", "a regular file"),
     ],
     ids=["disk full", "no file"],
 )

@@ -10,6 +10,7 @@ from attrs import evolve, fields_dict
 
 from i7000 import InvalidValueError
 from i7000.cli.numbers import integer
+from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, near, truth
 from i7000.simulator.faults import Faults, Way
 
@@ -17,6 +18,7 @@ __all__ = ["faults_words", "read_faults"]
 
 _SECOND = {"late": "late_by", "refuse": "refuse_code"}
 """The faults that have another value after the probability."""
+_SECOND_WORDS = {"late": "number of seconds", "refuse": "code"}
 _DEFAULT = Faults()
 _FAULTS = [name for name in fields_dict(Faults) if name not in {*_SECOND.values(), "scoped"}]
 _SWITCHES = [name for name in _FAULTS if isinstance(getattr(_DEFAULT, name), bool)]
@@ -41,8 +43,15 @@ def read_faults(texts: Iterable[str], faults: Faults = _DEFAULT) -> Faults:
             if error.field == "fault":
                 reason = "requests can only have drop, flip and noise" if where == Way.TO else f"{name} is for all"
                 raise UsageError(f"{text!r}: {reason}: write {what}") from None
-            raise UsageError(f"{text!r}: {error}") from None
+            raise UsageError(f"{text!r}: {_refused(error, what)}") from None
     return faults
+
+
+def _refused(error: InvalidValueError, what: str) -> InvalidValueError:
+    """Return a refusal with the value as it was written."""
+    probability, _, second = what.partition("=")[2].partition(":")
+    words = {field: (f"the {_SECOND_WORDS[name]} of {name}", second) for name, field in _SECOND.items()}
+    return as_written(error, *words.get(error.field, (error.field, probability)))
 
 
 def _values(text: str, whole: str) -> tuple[str, dict[str, Any]]:
@@ -55,13 +64,16 @@ def _values(text: str, whole: str) -> tuple[str, dict[str, Any]]:
     probability, colon, second = value.partition(":")
     if colon and name not in _SECOND:
         raise UsageError(f"{whole!r}: only late has a time, and refuse a code")
-    found: dict[str, Any] = {}
+    example = f"such as {name}={_EXAMPLES.get(name, '0.01')}"
     try:
-        found[name] = float(probability)
-        if colon:
-            found[_SECOND[name]] = float(second) if name == "late" else integer(second)
+        found: dict[str, Any] = {name: float(probability)}
     except ValueError:
-        raise UsageError(f"{whole!r}: give a probability, such as {name}={_EXAMPLES.get(name, '0.01')}") from None
+        raise UsageError(f"{whole!r}: give a probability, {example}") from None
+    if colon:
+        try:
+            found[_SECOND[name]] = float(second) if name == "late" else integer(second)
+        except (ValueError, UsageError):
+            raise UsageError(f"{whole!r}: {second!r} is not a {_SECOND_WORDS[name]}, {example}") from None
     return name, found
 
 
@@ -72,9 +84,12 @@ def _where(text: str, whole: str) -> Way | int:
     if text in list(Way):
         return Way(text)
     try:
-        return integer(text)
+        address = integer(text)
     except UsageError:
         raise UsageError(f"{whole!r}: after @ stands to, from or an address such as 01") from None
+    if not 0 <= address <= 0xFF:
+        raise UsageError(f"{whole!r}: an address is 0..255 or 00h..FFh")
+    return address
 
 
 def faults_words(faults: Faults) -> str:

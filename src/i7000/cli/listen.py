@@ -1,4 +1,4 @@
-"""``i7000 listen``: what is said on a line, decoded as it comes."""
+"""``i7000 listen``: the traffic on a line, decoded as it arrives."""
 
 import sys
 from typing import Annotated, Literal
@@ -34,15 +34,15 @@ def listen(  # noqa: PLR0913 - each of them is an option
     line: LineOptions = DEFAULT_LINE,
     module: Module = UNKNOWN,
 ) -> int:
-    """Listen to a line, and decode what is said as it comes. Nothing is sent.
+    """Listen to a line, and decode the traffic as it arrives. Nothing is sent.
 
     Connect a second adapter to the pair of wires, beside that of the host. Each frame has its time, the time since the
     end of the frame before it, and an arrow: `->` is from a host, `<-` from a module. What breaks a rule of time is
     noted: a command within 2 ms of a broadcast, a gap inside a Modbus frame, a late response. Times are those at which
     the system delivers the bytes; USB adapters often collect them for 16 ms.
 
-    What is said about a module is used from then on, as in `i7000 decode`. `--json` writes the same objects. A file
-    that is recorded can be read by `i7000 decode --file`; if its disk is full, the recording stops, not the listening.
+    What the traffic shows of a module is used from then on, as in `i7000 decode`. `--json` writes the same objects.
+    `i7000 decode --file` reads a file that is recorded; if its disk is full, the recording stops, not the listening.
     Output that nobody reads is dropped and counted.
 
     Example: `i7000 listen /dev/ttyUSB0 --baud 9600 --record bus.jsonl --pcap bus.pcapng`

@@ -109,7 +109,7 @@ class Listening:
 def run(listening: Listening, printer: Printer) -> int:
     """Listen until the time is over, a signal asks for the end, or the port is lost; return the exit code.
 
-    Errors: `UsageError` for a text that is no target, `LineError` for a port that cannot be opened or is lost,
+    Errors: `UsageError` for a text that is not a target, `LineError` for a port that cannot be opened or is lost,
         `OSError` for a file that cannot be created.
     """
     from i7000.link.port import read  # noqa: PLC0415 - it needs pyserial

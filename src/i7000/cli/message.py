@@ -5,6 +5,7 @@ mask can also be given as its channels, and the bytes CC and FF by their parts. 
 read in `by_register` if the model is known.
 """
 
+import re
 from collections.abc import Callable, Sequence
 from enum import Enum
 from functools import partial
@@ -25,7 +26,7 @@ from i7000 import (
 )
 from i7000.cli.by_register import held, is_of_registers
 from i7000.cli.choices import chosen
-from i7000.cli.numbers import baud_rate, hex_byte, integer
+from i7000.cli.numbers import baud_rate, hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
 from i7000.cli.refusals import as_written
 from i7000.cli.units import counts, scale_of
@@ -109,14 +110,19 @@ def refusal_words(refusal: InvalidValueError, kind: type[Message], assignments: 
         return str(refusal)
     scale = scale_of(kind, field, channel=written.get("channel", "0") != "0") if field in parts_of(kind) else None
     allowed = _readable(refusal.allowed)
-    if scale and refusal.allowed == _BYTE:
-        allowed = f"0..{0xFF / scale.per_unit:g} {scale.unit} in steps of {1 / scale.per_unit:g}"
+    limits = _LIMITS.fullmatch(refusal.allowed)
+    if scale and limits and not is_hex(written[field]):
+        base = 16 if limits["hex"] or refusal.allowed == _BYTE else 10
+        low, high = (int(limits[end], base) / scale.per_unit for end in ("low", "high"))
+        allowed = f"{low:g}..{high:g} {scale.unit} in steps of {1 / scale.per_unit:g}"
     elif scale and scale.unit not in allowed:
         allowed += f", counts of {1 / scale.per_unit:g} {scale.unit}"
     return str(as_written(refusal, field, written[field], allowed))
 
 
 _BYTE = "00..FF"
+_LIMITS = re.compile(r"(?P<low>[+-]?[0-9A-F]+)\.\.(?P<high>[+-]?[0-9A-F]+)(?:(?P<hex> in hex)| counts of .*)?")
+"""Limits of a count."""
 
 
 def _readable(allowed: str) -> str:

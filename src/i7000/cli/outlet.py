@@ -1,6 +1,6 @@
-"""Text for a file that is perhaps not read: who writes never waits.
+"""Text for a file that is perhaps not read: writing never waits.
 
-Laws: a thread of its own writes; what it cannot get rid of is kept up to a limit. Beyond that whole lines are dropped
+Laws: a thread of its own writes; what it cannot write is kept up to a limit. Beyond that whole lines are dropped
 and counted, until all that was kept has been written. The flags of the file are not touched, since other programs share
 them.
 """
@@ -17,7 +17,7 @@ from typing import IO
 __all__ = ["MOST_WAITING", "Outlet", "missed_words"]
 
 MOST_WAITING = 1 << 18
-"""Characters that are kept if nothing else is said."""
+"""Characters that are kept by default."""
 _PATIENCE = 0.5
 """Seconds that the end waits for a file that is not read."""
 _RETRY = 0.05
@@ -34,7 +34,7 @@ def missed_words(count: int) -> str:
 
 
 class Outlet:
-    """A text file, as far as `rich` needs one, that leads to another one and never holds up who writes.
+    """A text file, as far as `rich` needs one, that leads to another one, and to which writing never waits.
 
     Shape: `most` is how many characters are kept, 0: what is written while others wait is dropped. Text without the
         end of a line, as control sequences are, is never dropped. With `counted`, the number of lines that were dropped
@@ -51,7 +51,7 @@ class Outlet:
     ) -> None:
         """Write to `file`; `report` is called, in another thread, with what makes that fail, as a full disk does.
 
-        Special: a pipe that nobody reads and a terminal that is gone are no failures.
+        Special: a pipe that nobody reads and a terminal that is gone are not failures.
         """
         self.failed = False
         """Whether `report` was called."""

@@ -109,7 +109,7 @@ _MOST_RETRIES = 100
 def opened(target: str, line: LineSettings) -> "Iterator[Port]":
     """Open the port of a target until the end.
 
-    Errors: `UsageError` for a text that is no target; `LineError` if it cannot be opened.
+    Errors: `UsageError` for a text that is not a target; `LineError` if it cannot be opened.
     """
     from i7000.link import LinkError, open_target  # noqa: PLC0415 - pyserial takes time, and may not be there
 

@@ -85,7 +85,7 @@ def _protocol_of(piece: Piece) -> Protocol:
 
 
 def _shown(text: str) -> str:
-    """Return a line without its end; bytes that are no UTF-8 are escaped."""
+    """Return a line without its end; bytes that are not UTF-8 are escaped."""
     text = text.rstrip("\r\n")
     return text if text.isascii() else text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
@@ -188,7 +188,7 @@ def _lost(packet: Packet) -> Iterator[str]:
 
 
 def _utc(packet: Packet) -> str | None:
-    """Return the time of a packet; the seconds since 1970 where that is no date."""
+    """Return the time of a packet; the seconds since 1970 where that is not a date."""
     try:
         return None if packet.time is None else datetime.fromtimestamp(packet.time, UTC).isoformat()
     except (ValueError, OverflowError, OSError):

@@ -64,7 +64,7 @@ class Counts:
     late: int = 0
     """Frames that arrived when no response was due."""
     damaged: int = 0
-    """Bytes that are no frame, and frames that are not the response."""
+    """Bytes that are not a frame, and frames that are not the response."""
     missed: int = 0
     """Periods in which nothing was read, since the one before took too long or the port was lost."""
     _written: int = field(default=0, init=False)
@@ -181,8 +181,8 @@ class Connection:
 def run(plan: Plan, outputs: tuple[Output, ...], counts: Counts, note: Callable[[str], None]) -> int:
     """Read what is planned, and return the exit code; `note` is called with messages beside the readings.
 
-    Errors: `UsageError` for a text that is no target; `LineError` for a port that cannot be opened, or is lost before
-        everything was read once; `OSError` for an output that cannot be written.
+    Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened, or is lost
+        before everything was read once; `OSError` for an output that cannot be written.
     """
     with broken_off_by_signals() as ending:
         try:

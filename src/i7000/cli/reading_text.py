@@ -26,7 +26,7 @@ Writer = Callable[[str], None]
 
 _STATUS_STYLES = {Status.OK.value: "", Status.DISABLED.value: "dim"}
 NOT_UNDERSTOOD = "not_understood"
-"""The status of a reading that is no number of the type."""
+"""The status of a reading that is not a number of the type."""
 
 
 @frozen

@@ -202,7 +202,7 @@ class _Report:
     fit: Fit
     assumed: tuple[str, ...]
     others: tuple[Any, ...]
-    """The fields that are no readings."""
+    """The fields without readings."""
     meaning: Meaning = field(eq=False)
     """One of them."""
 

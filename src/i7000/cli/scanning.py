@@ -189,7 +189,7 @@ def _stored_record(stored: Stored) -> dict[str, Any]:
 
 _HEARD = {
     Heard.ECHO: "the echo of the requests: give --echo",
-    Heard.NOISE: "bytes that are no frame: devices with other line settings, swapped wires, or interference",
+    Heard.NOISE: "bytes that are not a frame: devices with other line settings, swapped wires, or interference",
     Heard.FRAME: "frames that are not the response: another host is sending, or responses are late (--timeout 0.5)",
     Heard.OTHER_PROTOCOL: "frames of the other protocol: another host is sending",
     Heard.WRONG_CHECKSUM: "frames with a wrong checksum: interference, or several modules with the same address",
@@ -198,7 +198,7 @@ GUIDE = "docs/find_a_module.md"
 
 
 def _heard_words(findings: list[Finding]) -> Iterator[str]:
-    """Yield what was heard that is no answer, with the line settings."""
+    """Yield what was heard that is not an answer, with the line settings."""
     for (heard, line), count in Counter((it.heard, it.place.line) for it in findings if not it.is_device).items():
         yield f"heard at {line_words(line)}, {count} {'time' if count == 1 else 'times'}: {_HEARD[heard]}"
 
@@ -233,7 +233,7 @@ def advice(search: Search, findings: list[Finding]) -> Iterator[str]:
 def run(search: Search, printer: Printer) -> int:
     """Search, and return the exit code.
 
-    Errors: `UsageError` for a text that is no target; `LineError` for a port that cannot be opened or is lost.
+    Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
     """
     count = len(places(search.lines, search.addresses, search.protocols, search.checksums))
     noun = "place to look at takes" if count == 1 else "places to look at take"
@@ -267,7 +267,7 @@ def run(search: Search, printer: Printer) -> int:
 def _teller(
     found: list[Found], findings: list[Finding], printer: Printer, draw: Callable[[Done], None]
 ) -> Callable[[object], None]:
-    """Return what is called with what the search tells."""
+    """Return the function that is called with each finding and with the progress of the search."""
 
     def tell(value: object) -> None:
         if isinstance(value, Done):

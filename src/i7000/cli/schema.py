@@ -66,7 +66,7 @@ _MEANING: _Schema = {
     "errata": _list({"type": "string", "pattern": "^E[0-9]{2,}$"}),
     "pause": {"type": "number", "description": "Seconds to leave the module alone after it."},
     "models": _list({"enum": [model.value for model in Model]}),
-    "checksum": _or_null("boolean", description="Null: it fits with and without, or it is no DCON."),
+    "checksum": _or_null("boolean", description="Null: it fits with and without, or it is not DCON."),
     "data_formats": _list(_TEXT),
     "assumed": _list({"enum": ["type", "format", "modbus_format"]}),
 }

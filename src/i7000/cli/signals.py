@@ -151,7 +151,7 @@ def _source(text: str, unit: Unit, seed: str) -> Source:
 
 
 def _pair(first: str, second: str, unit: Unit) -> tuple[float, float, Unit]:
-    """Read two quantities of one unit, which need be said only once."""
+    """Read two quantities of one unit, which is needed only once."""
     (first_value, first_unit), (second_value, second_unit) = quantity(first), quantity(second)
     if first_unit and second_unit and first_unit is not second_unit:
         raise UsageError(f"{first} and {second} have different units")

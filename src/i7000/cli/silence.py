@@ -17,7 +17,7 @@ _INIT_ADDRESS = 0x00
 _CAUSES = {
     Heard.NOTHING: "nothing came: check the address, --baud, the power and the wires (swap A and B)",
     Heard.ECHO: "only the echo of the request came: give --echo",
-    Heard.NOISE: "bytes came that are no frame: another --baud or --character-format, swapped wires, or interference",
+    Heard.NOISE: "bytes came that are not a frame: another --baud or --character-format, swapped wires or interference",
     Heard.FRAME: "a frame came that is not the response: another host or module is sending",
     Heard.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending",
     Heard.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules with the same address",

@@ -118,8 +118,8 @@ def _tell_sampled(call: Call) -> tuple[State, dcon.SynchronizedData]:
     if ram.sampled is None:
         raise _RefusedError
     values = sampled_fields(ram.sampled, call.state.profile.data_format)
-    response = dcon.SynchronizedData(call.address, first_reading=not ram.sampled_data_told, values=values)
-    return call.state.keep(sampled_data_told=True), response
+    response = dcon.SynchronizedData(call.address, first_reading=not ram.sampled_data_read, values=values)
+    return call.state.keep(sampled_data_read=True), response
 
 
 # --- actions ----------------------------------------------------------------------------------------------------------
@@ -192,6 +192,6 @@ _DONE: dict[type, Callable[[Call], State]] = {
 }
 
 _BROADCASTS: dict[type, Callable[[Call], State]] = {
-    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=sample(it.state, it.signals), sampled_data_told=False),
+    dcon.SynchronizedSampling: lambda it: it.state.keep(sampled=sample(it.state, it.signals), sampled_data_read=False),
     dcon.HostOk: lambda it: it.state.keep(fed_at=it.now),
 }

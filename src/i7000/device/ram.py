@@ -37,7 +37,7 @@ class Ram:
     """The time when the host watchdog was last restarted."""
     sampled: Sample | None = None
     """The sample of the last ``#**``."""
-    sampled_data_told: bool = False
+    sampled_data_read: bool = False
     calibration_enabled: bool = False
     soft_init_timeout: int = 0
     """The soft INIT timeout in seconds."""
@@ -47,7 +47,7 @@ class Ram:
     """The update setting; power-on starts the update, the default (E115)."""
     held_cold_junction: float | None = None
     """The cold-junction temperature when its update stopped, in degrees Celsius; None while it is updated."""
-    reset_status_told: bool = False
+    reset_status_read: bool = False
 
     def __attrs_post_init__(self) -> None:
         for name in _KEPT:
@@ -78,9 +78,9 @@ def _is_sampled(channel: object) -> bool:
 _KEPT: dict[str, tuple[type, ...]] = {
     "address": (int,), "line_settings": (LineSettings,), "checksum": (bool,), "protocol": (Protocol,),
     "init_mode": (bool,), "init_switch": (bool,), "fed_at": (int, float), "sampled": (tuple, NoneType),
-    "sampled_data_told": (bool,), "calibration_enabled": (bool,), "soft_init_timeout": (int,),
+    "sampled_data_read": (bool,), "calibration_enabled": (bool,), "soft_init_timeout": (int,),
     "soft_init_until": (int, float, NoneType), "cjc_update": (CjcUpdate,),
-    "held_cold_junction": (int, float, NoneType), "reset_status_told": (bool,),
+    "held_cold_junction": (int, float, NoneType), "reset_status_read": (bool,),
 }  # fmt: skip
 """The types of each field of `Ram`."""
 _BYTES = {"address": "2", "soft_init_timeout": "2.34"}

@@ -86,7 +86,7 @@ def read(call: Call, area: Area, asked: range) -> tuple[State, tuple[int, ...]]:
             raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE)
         found += _words_of(row, call)[at : at + len(asked) - len(found)]
         if row.ends_when_read:
-            state = state.keep(reset_status_told=True)
+            state = state.keep(reset_status_read=True)
     return state, found
 
 
@@ -157,7 +157,7 @@ _READ: dict[str, Callable[[Call], int | Iterable[int]]] = {
     "modbus_data_format": lambda it: it.eeprom.modbus_data_format,
     "host_watchdog_timed_out": lambda it: it.eeprom.host_watchdog_timed_out,
     "fast_mode": lambda it: it.eeprom.report_settings.fast_mode,
-    "reset_status": lambda it: not it.state.ram.reset_status_told,
+    "reset_status": lambda it: not it.state.ram.reset_status_read,
     "sampling_rate": lambda it: it.eeprom.sampling_rate_8_hz,
     "open_wire_detection": lambda it: it.eeprom.open_wire_detection,
     "single_ended": lambda it: it.eeprom.single_ended,

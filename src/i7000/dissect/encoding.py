@@ -45,7 +45,7 @@ def encoding_of(beginning: bytes) -> str:
 def decoder_for(beginning: bytes) -> IncrementalDecoder:
     """Return a decoder for a text that begins with these bytes, which it is to be given first.
 
-    Special: it never raises. Bytes that are no UTF-8 become lone surrogates, as files have them in Python; what is no
+    Special: it never raises. Bytes that are not UTF-8 become lone surrogates, as files have them in Python; what is not
         UTF-16 or UTF-32 becomes U+FFFD.
 
     >>> decoder_for(beginning := "TX: $012".encode("utf-16")).decode(beginning)

@@ -53,7 +53,7 @@ class Known:
     def of(cls, profile: Profile) -> "Known":
         """Return everything that a profile says.
 
-        Errors: `InvalidValueError` for what is no profile.
+        Errors: `InvalidValueError` for what is not a profile.
         """
         if not isinstance(profile, Profile):
             raise InvalidValueError("profile", profile, "an instance of Profile", "")
@@ -235,7 +235,7 @@ _NOTHING: Mapping[Any, Any] = MappingProxyType({})
 
 
 def _unchanging(mapping: Mapping[Any, Any]) -> Mapping[Any, Any]:
-    """Return a copy that does not change; what is no mapping is refused later."""
+    """Return a copy that does not change; what is not a mapping is refused later."""
     return MappingProxyType(dict(mapping)) if isinstance(mapping, Mapping) else mapping
 
 

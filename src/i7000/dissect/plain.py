@@ -28,7 +28,7 @@ def _plain() -> re.Pattern[str]:
           | \d (?<![\w:.\-/].) (?:
                 (?: \d{{3}}-\d\d-\d\d [ T] \d )? \d:\d\d:\d\d (?: [.,]\d{{1,6}} )? Z? | \d*\.\d+
             ) (?! \w | [:.\-/]\w )
-          | [G-Zg-z][0-9A-Za-z]* | [A-Fa-f](?=[A-Fa-f]*[G-Zg-z])[0-9A-Za-z]*              # a word that is no hex
+          | [G-Zg-z][0-9A-Za-z]* | [A-Fa-f](?=[A-Fa-f]*[G-Zg-z])[0-9A-Za-z]*              # a word that is not hex
           | [0-9A-Fa-f] (?<![0-9A-Za-z].) (?:[0-9A-Fa-f]{{2}})* (?![0-9A-Za-z]|[:./-]\w)  # or no bytes in hex
         )* )
         (?: >{{1,3}} [ ] )? ["']?

@@ -54,7 +54,7 @@ _new = tuple.__new__
 
 
 class _Part(NamedTuple):
-    """A line that spells bytes which are no frame yet."""
+    """A line that spells bytes which are not a frame yet."""
 
     number: int
     text: str

@@ -8,7 +8,7 @@ if __name__ == "__main__":  # before the imports, which take longer than all els
 import asyncio
 from collections.abc import Sequence
 
-from i7000.examples.task import Task, failures_said, program, read_task
+from i7000.examples.task import Task, failures_reported, program, read_task
 from i7000.host.procedures import ask
 from i7000.link import AsyncLine
 
@@ -23,7 +23,7 @@ async def _main(task: Task) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read the inputs of a module."""
     task = read_task(arguments)
-    with failures_said():
+    with failures_reported():
         return asyncio.run(_main(task))
 
 

@@ -7,7 +7,7 @@ if __name__ == "__main__":  # before the imports, which take longer than all els
 
 from collections.abc import Sequence
 
-from i7000.examples.task import failures_said, program, read_task
+from i7000.examples.task import failures_reported, program, read_task
 from i7000.host.procedures import ask
 from i7000.link import Line
 
@@ -17,7 +17,7 @@ __all__ = ["main"]
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read the inputs of a module."""
     task = read_task(arguments)
-    with failures_said(), Line.open(task.target, task.line, echo=task.echo) as line:
+    with failures_reported(), Line.open(task.target, task.line, echo=task.echo) as line:
         return task.show(line.run(ask(task.command, task.profile)))
 
 

@@ -1,20 +1,22 @@
 """The arguments and the output of the example programs; the same for both."""
 
 import sys
-from argparse import ArgumentParser
+from argparse import ArgumentParser, ArgumentTypeError
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 
 from attrs import evolve, field, frozen
 
 from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Reading, TypeCode, dcon, modbus
+from i7000.cli.numbers import integer
+from i7000.cli.words import UsageError
 from i7000.errors import InvalidValueError
 from i7000.host import Answered, Query, Rejected
 from i7000.host.procedures import Result
 from i7000.link import LinkError
 from i7000_cli import program
 
-__all__ = ["Task", "failures_said", "program", "read_task"]
+__all__ = ["Task", "failures_reported", "program", "read_task"]
 
 Inputs = dcon.AnalogInputs | modbus.InputRegisters
 """The response of the command of a task."""
@@ -43,7 +45,7 @@ class Task:
             return 1
         try:
             readings = self._readings(result.outcome.response)
-        except DecodeError as error:  # of another module than was told
+        except DecodeError as error:  # of a module other than the given one
             print(error)  # noqa: T201
             return 1
         for channel, reading in enumerate(readings):
@@ -61,7 +63,7 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
     parser = ArgumentParser(description="Read the analog inputs of a module.")
     parser.add_argument("target", help="a serial port, a URL of pyserial, sim:M-7019R,type=K or exec:COMMAND")
     parser.add_argument("--model", type=Model.find, required=True)
-    parser.add_argument("--address", type=lambda text: int(text, 16), default=0x01, help="in hex; 01 unless given")
+    parser.add_argument("--address", type=_address, default=0x01, help="decimal, or hex as 0x1A or 1Ah; 1 unless given")
     types, rates = TypeCode.__members__, {str(rate.bits_per_second): rate for rate in BaudRate}
     parser.add_argument("--type", choices=types, metavar="TYPE", help="of all channels: K, V_10, MA_4_20 ...")
     parser.add_argument("--baud", choices=rates, default="9600")
@@ -69,17 +71,30 @@ def read_task(arguments: Sequence[str] | None = None) -> Task:
     parser.add_argument("--modbus", action="store_true", help="ask by Modbus RTU instead of DCON")
     parser.add_argument("--echo", action="store_true", help="the adapter hears what it sends")
     given = parser.parse_args(arguments)
-    profile = Profile(given.model, checksum=given.checksum)
-    if given.type is not None:
-        profile = evolve(profile, type_codes=(types[given.type],) * profile.channels)
-    command: Query[Inputs] = dcon.ReadAnalogInputs(given.address)
-    if given.modbus:
-        command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
+    try:
+        profile = Profile(given.model, checksum=given.checksum)
+        if given.type is not None:
+            profile = evolve(profile, type_codes=(types[given.type],) * profile.channels)
+        command: Query[Inputs] = dcon.ReadAnalogInputs(given.address)
+        if given.modbus:
+            command = modbus.ReadInputRegisters(given.address, 0, profile.channels)
+    except InvalidValueError as error:
+        parser.error(str(error))
     return Task(given.target, LineSettings(rates[given.baud]), profile, command, echo=given.echo)
 
 
+def _address(text: str) -> int:
+    try:
+        address = integer(text)
+    except UsageError as error:
+        raise ArgumentTypeError(error) from None
+    if not 0 <= address <= 0xFF:
+        raise ArgumentTypeError("an address is 0..255 or 00h..FFh")
+    return address
+
+
 @contextmanager
-def failures_said() -> Generator[None, None, None]:
+def failures_reported() -> Generator[None, None, None]:
     """End the program with the reason if the target is invalid, or if its port cannot be opened or disappears."""
     try:
         yield

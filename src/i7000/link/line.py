@@ -105,8 +105,9 @@ class Line:
         return self._drive(self._conversation.ask(command, profile, policy)).outcome
 
     def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None = None) -> T:
-        """Carry out a procedure of `i7000.host.procedures`, and return its result; `tell` is called with what it tells.
+        """Carry out a procedure of `i7000.host.procedures`, and return its result.
 
+        Shape: `tell` is called with the value of each step `Tell`: findings and progress.
         Special: line settings that a procedure changed stay, unless it did not get to its end.
         """
         return self._drive(self._conversation.run(procedure, tell))

@@ -73,7 +73,7 @@ def open_target(
 
     Shape: see the head of `i7000.link.target`, and `TargetOptions`.
     Special: a serial port is opened for this program alone, where the system can do that.
-    Errors: `InvalidValueError` for a text that is no target, and for an option that the target does not have;
+    Errors: `InvalidValueError` for a text that is not a target, and for an option that the target does not have;
         `LinkError` for a port that cannot be opened.
 
     >>> port = open_target("sim:I-7018,address=5+M-7017,protocol=dcon")

@@ -62,7 +62,7 @@ class End(NamedTuple):
 
 
 class Damaged(NamedTuple):
-    """A line that is no record, and why."""
+    """A line that is not a record, and why."""
 
     reason: str
 

@@ -28,7 +28,16 @@ from filelock import FileLock, Timeout
 from i7000 import I7000Error
 from i7000.device import Eeprom
 from i7000.simulator.files import UnsuitableFileError, check_regular, open_regular
-from i7000.simulator.memory_values import FAULTS, Odd, WrongError, check_names, short, structured, told, unstructured
+from i7000.simulator.memory_values import (
+    FAULTS,
+    Odd,
+    WrongError,
+    check_names,
+    error_words,
+    short,
+    structured,
+    unstructured,
+)
 
 __all__ = ["FORMAT", "VERSION", "MemoryFileError", "held", "load", "save"]
 
@@ -57,7 +66,12 @@ class MemoryFileError(I7000Error, ValueError):
         self.allowed = allowed
 
     def __str__(self) -> str:
-        return f"{self.path}: {self.place}: {self.reason}; allowed: {self.allowed}"
+        where = self.path if self.place == _FILE else f"{self.path}: {self.place}:"
+        return f"{where} {self.reason}; allowed: {self.allowed}"
+
+
+_FILE = "the file"
+"""The place of a fault of the whole file."""
 
 
 # --- read and write ---------------------------------------------------------------------------------------------------
@@ -82,7 +96,7 @@ def held(path: str | os.PathLike[str]) -> Iterator[None]:
             try:
                 locked.enter_context(FileLock(lock, timeout=0))
             except Timeout:
-                raise _unsuitable(path, "is used by another simulator", "one simulator a file") from None
+                raise _unsuitable(path, "is used by another simulator", "one simulator for each file") from None
             except OSError as error:
                 raise OSError(error.errno, f"cannot be locked by {lock.name} beside it: {error.strerror}") from None
             for left in target.parent.glob(f".{glob.escape(target.name)}.{'[0-9a-f]' * 2 * _TOKEN}.tmp"):
@@ -103,7 +117,7 @@ def load(path: str | os.PathLike[str]) -> tuple[Eeprom, ...]:
     try:
         return _modules(_parsed(data))
     except FAULTS as error:
-        raise MemoryFileError(os.fspath(path), *told(error)) from None
+        raise MemoryFileError(os.fspath(path), *error_words(error)) from None
 
 
 def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
@@ -117,7 +131,7 @@ def save(path: str | os.PathLike[str], eeproms: Iterable[Eeprom]) -> None:
     try:
         structured(modules)
     except FAULTS as error:
-        raise MemoryFileError(os.fspath(path), *told(error)) from None
+        raise MemoryFileError(os.fspath(path), *error_words(error)) from None
     data = _text(modules).encode("ascii")
     if len(data) > _MOST:
         raise _unsuitable(path, f"would have {len(data)} bytes", f"{_MOST} bytes")
@@ -175,7 +189,7 @@ def _named(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 def _unsuitable(path: str | os.PathLike[str], reason: str, allowed: str) -> MemoryFileError:
-    return MemoryFileError(os.fspath(path), "the file itself", reason, allowed)
+    return MemoryFileError(os.fspath(path), _FILE, reason, allowed)
 
 
 def _sync(directory: Path) -> None:
@@ -217,10 +231,10 @@ def _parsed(data: bytes) -> Any:  # noqa: ANN401 - any JSON
     try:
         return json.loads(data.decode("utf-8"), object_pairs_hook=_object, parse_int=_integer, parse_constant=Odd)
     except UnicodeDecodeError as error:
-        raise WrongError(f"is byte {data[error.start]:02X}", "UTF-8", f"byte {error.start}") from None
+        raise WrongError(f"is {data[error.start]:02X}", "UTF-8", f"byte {error.start}") from None
     except json.JSONDecodeError as error:
         raise WrongError(
-            f"is no JSON ({error.msg})", "a whole file", f"line {error.lineno} column {error.colno}"
+            f"is not JSON ({error.msg})", "a whole file", f"line {error.lineno} column {error.colno}"
         ) from None
     except RecursionError:
         raise WrongError("is nested too deep", "four levels") from None

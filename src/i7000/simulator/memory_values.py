@@ -31,7 +31,7 @@ from i7000 import (
 )
 from i7000.device import Eeprom, Log, LogCommand, Record
 
-__all__ = ["FAULTS", "Odd", "WrongError", "check_names", "short", "structured", "told", "unstructured"]
+__all__ = ["FAULTS", "Odd", "WrongError", "check_names", "error_words", "short", "structured", "unstructured"]
 
 _LAST_MOMENT = 10**12
 """The maximum difference of a clock from 1970, in seconds."""
@@ -62,7 +62,7 @@ FAULTS = (WrongError, InvalidValueError, BaseValidationError)
 """The errors that `structured` raises."""
 
 
-def told(error: Exception) -> tuple[str, str, str]:
+def error_words(error: Exception) -> tuple[str, str, str]:
     """Return the place of the first fault, the fault, and what is allowed there."""
     place = ""
     while True:
@@ -78,7 +78,7 @@ def told(error: Exception) -> tuple[str, str, str]:
         assert isinstance(error, WrongError)  # noqa: S101 - no hook raises another
         place += f".{error.place}" if error.place else ""
         words = error.reason, error.allowed
-    return place.removeprefix(".") or "the whole of it", *words
+    return place.removeprefix(".") or "the document", *words
 
 
 def check_names(value: dict[str, Any], names: Iterable[str], optional: Iterable[str] = ()) -> None:
@@ -110,7 +110,7 @@ def _no(value: object, allowed: str) -> WrongError:
 def structured(modules: Any) -> tuple[Eeprom, ...]:  # noqa: ANN401 - any JSON
     """Return the EEPROMs of a list.
 
-    Errors: `FAULTS`; `told` describes them in words.
+    Errors: `FAULTS`; `error_words` describes them in words.
     """
     try:
         found: tuple[Eeprom, ...] = _CONVERTER.structure(modules, tuple[Eeprom, ...])

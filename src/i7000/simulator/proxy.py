@@ -23,7 +23,7 @@ __all__ = ["UNSENT", "Proxy", "ProxyHost"]
 UNSENT = "a request was lost: the target does not take it"
 """The text of a notice."""
 _SILENCE = 0.05
-"""The silence in seconds that ends an answer or a request which is no frame: more than a USB adapter collects for."""
+"""The silence in seconds that ends an answer, or a request that is not a frame: longer than USB adapters pause."""
 _PATIENCE = 1.0
 """The seconds that a host which sends nothing more waits for its answer."""
 _MOST = max(dcon.LONGEST_FRAME, modbus.LONGEST_FRAME)
@@ -214,7 +214,7 @@ class ProxyHost:
         proxy.carried(b"".join(piece.wire for piece in transfer.pieces), self.name, happened, sent=False)
 
     def _exchange(self, answer: bytes) -> Exchange | None:
-        """Return the exchange of an answer, and remember the answer; None if the request is no frame."""
+        """Return the exchange of an answer, and remember the answer; None if the request is not a frame."""
         protocol = _protocol(self._request)
         if protocol is None:
             return None
@@ -229,7 +229,7 @@ class ProxyHost:
 
 
 def _protocol(request: bytes) -> Protocol | None:
-    """Return the protocol of the last frame of a host; None if it is no frame."""
+    """Return the protocol of the last frame of a host; None if it is not a frame."""
     if _is_rtu(request):
         return Protocol.MODBUS_RTU
     last = request[:-1].rpartition(b"\r")[2]

@@ -1,4 +1,4 @@
-"""The real port of a proxy: threads read and write it, so that it never holds up an event loop.
+"""The real port of a proxy: threads read and write it, so that an event loop never waits for it.
 
 Laws: what comes from the port is handed to the loop before more is read, and what waits to be written is limited:
 neither side can fill the memory.

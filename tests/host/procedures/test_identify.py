@@ -477,7 +477,7 @@ def test_a_version_of_undefined_bytes_is_not_learned() -> None:
     found, _ = run(identify(0x01, protocols=[Protocol.MODBUS_RTU]), by_modbus(version=(2, 7, 0)))
 
     assert (found.known.firmware, found.version) == (None, "020700")
-    assert unknown(found)["firmware"] == "02 07 00 is no version (E75)"
+    assert unknown(found)["firmware"] == "02 07 00 is not a version (E75)"
 
 
 def test_a_module_without_its_map_is_asked_for_the_type_of_each_channel() -> None:

@@ -31,15 +31,15 @@ def registers_of(profile: Profile) -> RegisterMap:
 class InMessage:
     """A setting in a field of a message: `reader` asks for it, and `writer` sets it together with its neighbours.
 
-    Shape: `path` leads to the field in the writer, with points between: ``report_settings.filter``. `told` is the path
-        in the response, if it is another one. `bit` is the bit of a byte. `per_unit` is how many counts are one unit;
-        0 means as the layout of the message defines it.
+    Shape: `path` leads to the field in the writer, with points between: ``report_settings.filter``.
+        `response_path` is the path in the response, if it is another one. `bit` is the bit of a byte. `per_unit` is how
+        many counts are one unit; 0 means as the layout of the message defines it.
     """
 
     reader: Any
     writer: Any
     path: str
-    told: str = ""
+    response_path: str = ""
     bit: int = 0
     per_unit: int = 0
     channel: int | None = None
@@ -61,7 +61,7 @@ class InMessage:
 
     def value(self, response: Any) -> Any:  # noqa: ANN401 - of any setting
         """Return the value in the response, in the unit of the setting."""
-        held = attrgetter(self.told or self.path)(response)
+        held = attrgetter(self.response_path or self.path)(response)
         if self._in_byte:
             return offset_in_celsius(FIRST_CHANNEL, held)
         scale = self._scale

@@ -103,10 +103,10 @@ def _by_name(name: str | None) -> Evidence:
         return Evidence.of(named, f"{name} is the factory name of {' and '.join(model.value for model in named)}")
     others = [model for model in Model if model.series != name[:4]]
     if len(others) < len(Model):
-        return Evidence.of(Model, f"{name} is no factory name").doubt(others, f"{name} is not of its series")
+        return Evidence.of(Model, f"{name} is not a factory name").doubt(others, f"{name} is not of its series")
     if _FACTORY_NAME.fullmatch(name):
         return Evidence.of((), f"{name} is the name of another product")
-    return Evidence.of(Model, f"{name} is no factory name")
+    return Evidence.of(Model, f"{name} is not a factory name")
 
 
 def _by_configuration(

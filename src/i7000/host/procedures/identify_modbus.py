@@ -77,7 +77,7 @@ def _undefined(version: modbus.FirmwareVersion | None) -> tuple[Unknown, ...]:
     """Return that a version is unknown if its bytes are not those of one."""
     if version is None or version.firmware is not None:
         return ()
-    return (Unknown("firmware", f"{version.major:02X} {version.minor:02X} {version.build:02X} is no version (E75)"),)
+    return (Unknown("firmware", f"{version.major:02X} {version.minor:02X} {version.build:02X} is not a version (E75)"),)
 
 
 def _by_name(name: modbus.ModuleName | None) -> Evidence:

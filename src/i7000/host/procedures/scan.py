@@ -32,7 +32,7 @@ class Heard(Enum):
     NOTHING = "nothing"
     """No byte."""
     NOISE = "noise"
-    """Bytes that are no frame: interference, or frames at another baud rate or character format."""
+    """Bytes that are not a frame: interference, or frames at another baud rate or character format."""
     ECHO = "echo"
     """Only the request itself: the adapter echoes what the host sends, and the host does not expect it."""
     OTHER_PROTOCOL = "frames of the other protocol"

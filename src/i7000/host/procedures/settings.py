@@ -97,17 +97,17 @@ def _by_register(name: str, dcon_place: Place | None = None, **facts: object) ->
     return Row(name, dcon_place, (register(name),), **facts)  # type: ignore[arg-type] # fields of `Row`
 
 
-def _configuration(path: str, told: str = "") -> Place:
-    return message(dcon.ReadConfiguration, dcon.SetConfiguration, path, told=told)
+def _configuration(path: str, response_path: str = "") -> Place:
+    return message(dcon.ReadConfiguration, dcon.SetConfiguration, path, response_path=response_path)
 
 
 def _communication(path: str) -> Place:
     return message(modbus.ReadCommunicationSettings, modbus.SetCommunicationSettings, path)
 
 
-def _miscellaneous(told: str, bit: int) -> Place:
+def _miscellaneous(response_path: str, bit: int) -> Place:
     reader, writer = modbus.ReadMiscellaneousSettings, modbus.SetMiscellaneousSettings
-    return message(reader, writer, "settings", told=told, bit=bit)
+    return message(reader, writer, "settings", response_path=response_path, bit=bit)
 
 
 _OFFSETS = modbus.ReadCjcOffset, modbus.SetCjcOffset, "offset"
@@ -201,14 +201,14 @@ ROWS = (
         (register("protocol"), _communication("protocol")), hazard=Hazard.LOSES, deferred=True,
     ),
     Row(
-        "address", _configuration("new_address", told="address"), values=lambda _: Quantity(0, 0xFF),
+        "address", _configuration("new_address", response_path="address"), values=lambda _: Quantity(0, 0xFF),
         hazard=Hazard.LOSES,
     ),
     Row(
         "address", None,
         (
             register("module_address"),
-            message(modbus.ReadCommunicationSettings, modbus.SetModuleAddress, "new_address", told="address"),
+            message(modbus.ReadCommunicationSettings, modbus.SetModuleAddress, "new_address", response_path="address"),
         ),
         lambda _: Quantity(1, LAST_ADDRESS), Hazard.LOSES,
     ),
@@ -226,7 +226,7 @@ NOT_SETTINGS: Mapping[str, str] = MappingProxyType({
     "rtc_epoch": "it is the clock",
     **dict.fromkeys((f"rtc_{part}" for part in _DATE), "it is the clock"),
 })  # fmt: skip
-"""The rows of the address maps that can be written and are no settings, and why."""
+"""The rows of the address maps that can be written and are not settings, and why."""
 
 
 # --- the settings of a module -----------------------------------------------------------------------------------------
