@@ -66,7 +66,7 @@ class Reached:
 def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observed], object] | None = None) -> int:
     """Open the port of a module, do the work of a command, and return the exit code.
 
-    Errors: `UsageError` for a text that is no target; `LineError` for a port that cannot be opened or is lost.
+    Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
     """
     with broken_off_by_signals() as ending:
         try:

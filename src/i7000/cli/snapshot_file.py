@@ -22,7 +22,7 @@ _LONGEST = 1 << 20
 def read_snapshot(path: str) -> Snapshot:
     """Read a snapshot from a file, or from standard input for ``-``.
 
-    Errors: `UsageError` for what is no snapshot, `OSError` for a file that cannot be read.
+    Errors: `UsageError` for a file that is not a snapshot, `OSError` for a file that cannot be read.
     """
     if path == "-":
         if sys.stdin is None:
