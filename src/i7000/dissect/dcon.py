@@ -23,11 +23,13 @@ from i7000.dissect.known import Fact, Known, Origin
 from i7000.dissect.meaning import ChannelReading, Fit, Meaning
 from i7000.readings import decode_field
 
-__all__ = ["DconReader", "is_command", "meanings", "reader"]
+__all__ = ["LEADS", "DconReader", "is_command", "meanings", "reader"]
 
 _NOTHING_KNOWN = Known()
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
+LEADS = _COMMAND_LEADS + _RESPONSE_LEADS
+"""The characters that DCON frames begin with."""
 _REMEMBERED = 256
 """Commands, and sets of profiles, that are cached: a host that polls sends the same again and again."""
 
