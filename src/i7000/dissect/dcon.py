@@ -86,8 +86,8 @@ class DconReader:
     def meanings(self, frame: bytes, asked: bytes | None = None) -> tuple[Meaning, ...]:
         r"""Return what a frame can mean, as the response to `asked` if that is given.
 
-        Special: factory defaults are tried first. A meaning with numbers that no module of their types writes is
-            given, as a misfit, only if no other type or data format fits.
+        Special: factory defaults are tried first, and not used if they exclude a meaning. A meaning with numbers that
+            no module of their types writes is given, as a misfit, only if no other type or data format fits.
         Errors: `DecodeError` if it means nothing.
 
         >>> [type(meaning.message).__name__ for meaning in DconReader(Known()).meanings(b"$01A\r")]
@@ -105,7 +105,7 @@ class DconReader:
                         (misfits if misfit else read).append((found, readings, misfit))
                 except DecodeError as fault:
                     faults.append(fault)
-            if read:
+            if read and (not misfits or attempts is stages[-1]):
                 return self._meanings(read)
         if misfits:
             return self._meanings(misfits)
