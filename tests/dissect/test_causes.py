@@ -3,7 +3,7 @@
 import pytest
 
 from i7000 import DataFormat, Model, Protocol, TypeCode, dcon, modbus
-from i7000.dissect import Known, hear_frame
+from i7000.dissect import Heard, Known, Line, flush, hear, hear_frame
 from tests.dissect.hearing import last_heard, line_of
 
 I_7018, I_7019R = Known(Model.I_7018), Known(Model.I_7019R, types=(TypeCode.K,))
@@ -270,3 +270,57 @@ def test_the_code_of_different_types_is_one_that_every_model_can_have() -> None:
 
 def test_what_has_no_more_characters_than_a_checksum_has_no_cause() -> None:
     assert last_heard("$012", "01", known=I_7018).notes == ()
+
+
+MESSAGE = bytes.fromhex("000700000006010400000008")
+TCP = "a Modbus TCP header (transaction 7, 6 bytes follow): these modules speak RTU; the rest is ReadInputRegisters"
+
+
+@pytest.mark.parametrize("size", [1, 5, 99])
+@pytest.mark.parametrize(
+    ("stream", "noise"),
+    [
+        (b"$012", [("terminator", "no carriage return (0D) at its end")]),
+        (
+            b"$012\n!010F0600\n",
+            [("terminator", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)")] * 2,
+        ),
+        (b"$01m\r", [("command", "lower case: in upper case it is ReadModuleName")]),
+        (
+            b"$01m\r" + MESSAGE,
+            [
+                ("command", "lower case: in upper case it is ReadModuleName"),
+                ("crc", TCP),
+            ],
+        ),
+        (
+            bytes.fromhex("0104000000010D"),
+            [("crc", "no CRC? ReadInputRegisters with the end of a line in its place; the CRC would be 31 CA")],
+        ),
+        (b"xx$012\r", [("leading", None)]),
+    ],
+)
+def test_noise_in_a_stream_has_its_fault_and_cause_in_whatever_pieces_it_comes(
+    stream: bytes, noise: list[tuple[str, str | None]], size: int
+) -> None:
+    line = Line()
+    heard: list[Heard] = []
+    for at in range(0, len(stream), size):
+        line, found = hear(line, stream[at : at + size])
+        heard += found
+    heard += flush(line)[1]
+
+    faults = [(it.error.fault.value, next(iter(it.notes), None)) for it in heard if it.error]
+    assert faults == noise
+
+
+def test_a_modbus_frame_on_a_line_of_dcon_is_named() -> None:
+    _, (heard,) = hear(Line(protocol=Protocol.DCON), bytes.fromhex("01040000000131CA"))
+
+    assert heard.notes == ("the CRC is right: a Modbus RTU frame",)
+
+
+def test_noise_leaves_the_command_before_it_waiting() -> None:
+    _, (_, _, response) = hear(Line(protocol=Protocol.DCON), b"$012\r\n!010F0600\r")
+
+    assert response.answers is not None

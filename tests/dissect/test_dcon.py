@@ -182,3 +182,24 @@ def test_what_no_module_understands_is_shown_by_the_command_that_is_nearest(
 def test_what_no_module_says_means_nothing(frame: bytes) -> None:
     with pytest.raises(DecodeError):
         meanings(frame)
+
+
+@pytest.mark.parametrize(
+    ("known", "names"),
+    [
+        (Known(Model.I_7018), ["AnalogInput", "CjcTemperature"]),
+        (Known(Model.I_7018, types=(TypeCode.K,) * 8), ["AnalogInput", "CjcTemperature"]),
+        (Known(Model.I_7018, types=(TypeCode.V_2_5,) * 8), ["CjcTemperature"]),
+        (Known(), ["AnalogInput", "CjcTemperature"]),
+    ],
+)
+def test_a_type_that_is_only_assumed_excludes_no_meaning(known: Known, names: list[str]) -> None:
+    found = meanings(b">+0025.1\r", known=known)
+
+    assert [type(it.message).__name__ for it in found] == names
+
+
+def test_a_meaning_that_the_assumed_type_excludes_has_an_unknown_type() -> None:
+    found, _ = meanings(b">+0025.1\r", known=Known(Model.I_7018))
+
+    assert [(it.text, it.type_code, it.value) for it in found.readings] == [("+0025.1", None, None)]

@@ -58,7 +58,7 @@ def test_a_response_that_is_wrong_for_both_commands_answers_none() -> None:
 
     assert heard.answers is None
     assert heard.error is not None
-    assert [type(meaning.message).__name__ for meaning in heard.candidates] == ["CjcTemperature"]
+    assert [type(meaning.message).__name__ for meaning in heard.candidates] == ["AnalogInput", "CjcTemperature"]
 
 
 def test_a_response_that_is_printed_twice_is_noticed() -> None:
@@ -214,3 +214,10 @@ def test_type_and_format_of_the_configuration_are_used_for_the_reports() -> None
 
     assert [reading.value for reading in heard.meanings[0].readings][:2] == [0.0, pytest.approx(0.0888, abs=1e-4)]
     assert heard.meanings[0].assumed == ()
+
+
+def test_a_frame_that_can_be_no_reading_shows_nothing_of_types() -> None:
+    heard = last_heard(">+0025.1", known=Known(Model.I_7018))
+
+    assert len(heard.meanings) > 1
+    assert heard.notes == ()

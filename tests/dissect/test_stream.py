@@ -4,23 +4,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import Fault, Protocol, modbus
+from i7000 import Protocol, modbus
 from i7000.dissect.stream import Span, looks_like, split
 from tests.dissect.frames import REQUEST, RESPONSE
 from tests.dissect.strategies import frames, protocols
 
 DCON, MODBUS = Protocol.DCON, Protocol.MODBUS_RTU
+HEADER = bytes.fromhex("000700000006")
 
 
 def good(spans: tuple[Span, ...]) -> list[tuple[Protocol, bytes]]:
-    return [(span.protocol, span.wire) for span in spans if span.fault is None]
+    return [(span.protocol, span.wire) for span in spans if span.is_frame]
 
 
 @pytest.mark.parametrize(
     ("data", "protocol", "spans", "rest"),
     [
         (b"$012\r$0", DCON, [Span(DCON, b"$012\r")], b"$0"),
-        (b"xx$012\r", DCON, [Span(DCON, b"xx", Fault.LEADING), Span(DCON, b"$012\r")], b""),
+        (b"xx$012\r", DCON, [Span(DCON, b"xx", is_frame=False), Span(DCON, b"$012\r")], b""),
         (REQUEST + b"\x01", MODBUS, [Span(MODBUS, REQUEST)], b"\x01"),
         (b"$012\r" + REQUEST + b"$0", None, [Span(DCON, b"$012\r"), Span(MODBUS, REQUEST)], b"$0"),
         (b"", None, [], b""),
@@ -35,18 +36,17 @@ def test_frames_are_split_from_noise_and_from_what_can_still_become_one(
 @pytest.mark.parametrize(
     ("data", "protocol", "spans"),
     [
-        (b"$0", DCON, [Span(DCON, b"$0", Fault.TERMINATOR)]),
-        (b"\x01\x04", MODBUS, [Span(MODBUS, b"\x01\x04", Fault.LENGTH)]),
-        (b"$0", None, [Span(DCON, b"$0", Fault.LEADING)]),
-        (b"\x01\x04", None, [Span(MODBUS, b"\x01\x04", Fault.CRC)]),
+        (b"$0", DCON, [Span(DCON, b"$0", is_frame=False)]),
+        (b"\x01\x04", MODBUS, [Span(MODBUS, b"\x01\x04", is_frame=False)]),
+        (b"$0", None, [Span(DCON, b"$0", is_frame=False)]),
+        (b"\x01\x04", None, [Span(MODBUS, b"\x01\x04", is_frame=False)]),
         (b"", None, []),
     ],
 )
 def test_at_the_end_nothing_is_left(data: bytes, protocol: Protocol | None, spans: list[Span]) -> None:
     found, rest = split(data, protocol, last=True)
 
-    assert [(it.protocol, it.wire) for it in spans] == [(it.protocol, it.wire) for it in found]
-    assert all(span.fault for span in found)
+    assert spans == [*found]
     assert rest == b""
 
 
@@ -101,4 +101,29 @@ def test_good_frames_of_both_protocols_are_all_found(sent: list[bytes]) -> None:
     spans, _ = split(b"".join(sent), last=True)
 
     assert [span.wire for span in spans] == sent
-    assert all(span.fault is None for span in spans)
+    assert all(span.is_frame for span in spans)
+
+
+@pytest.mark.parametrize("protocol", [None, DCON, MODBUS])
+@pytest.mark.parametrize(
+    "parts",
+    [
+        [b"$01m\r", b"!01X\r"],
+        [b"$012\n", b"!010F0600\n"],
+        [b"$01m\r", HEADER + REQUEST[:-2]],
+        [HEADER + REQUEST[:-2], HEADER + REQUEST[:-2], b"$01m\r", b"\x01\x02\x03"],
+    ],
+)
+def test_noise_is_cut_where_lines_and_messages_of_modbus_tcp_end(parts: list[bytes], protocol: Protocol | None) -> None:
+    data = b"".join(parts)
+    wires = [[span.wire for span in split(data, it, last=True)[0]] for it in (protocol, None)]
+
+    assert parts in wires
+
+
+def test_noise_waits_for_what_follows_it_while_it_is_shorter_than_a_frame() -> None:
+    short = split(b"$01m\r\x01\x04", None)
+    spans, rest = split(b"\xff" * 300 + b"\x01\x04", None)
+
+    assert short == ((), b"$01m\r\x01\x04")
+    assert ([span.wire for span in spans], rest) == ([b"\xff" * 300], b"\x01\x04")

@@ -10,7 +10,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import dcon, describe, modbus
-from i7000.dissect.dcon import DconReader, is_command
+from i7000.dissect.dcon import LEADS, DconReader, is_command
 from i7000.dissect.dcon import reader as reader_of
 from i7000.dissect.known import Knowledge, Known, Module
 from i7000.dissect.meaning import Meaning
@@ -35,9 +35,9 @@ def dcon_causes(wire: bytes, module: Module, asked: bytes | None) -> Iterator[st
         modbus.unseal(wire)
         yield "the CRC is right: a Modbus RTU frame"
         return
-    if wire.endswith(b"\n"):
+    if body and wire.endswith(b"\n"):
         yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
-    elif not wire.endswith(b"\r"):
+    elif wire[:1] in LEADS and not wire.endswith(b"\r"):
         yield "no carriage return (0D) at its end"
     if _is_noise(wire):
         yield "noise: another baud rate or parity?"
@@ -145,8 +145,11 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
         yield f"noise: {len(wire)} byte{'s' if len(wire) > 1 else ''} beside the frames"
         return
     whole, cut = _meant(reader, wire), _meant(reader, wire[:-2])
+    ended = wire.rstrip(b"\r\n")
     if whole:
         yield f"no CRC? {whole} without it, which would be {_crc(wire)}"
+    elif ended != wire and (name := _meant(reader, ended)):
+        yield f"no CRC? {name} with the end of a line in its place; the CRC would be {_crc(ended)}"
     elif cut and modbus.seal(wire[:-2])[-2:] == wire[:-3:-1]:
         yield f"the bytes of the CRC are in the wrong order: the low byte comes first, {_crc(wire[:-2])}"
     elif cut:

@@ -23,11 +23,13 @@ from i7000.dissect.known import Fact, Known, Origin
 from i7000.dissect.meaning import ChannelReading, Fit, Meaning
 from i7000.readings import decode_field
 
-__all__ = ["DconReader", "is_command", "meanings", "reader"]
+__all__ = ["LEADS", "DconReader", "is_command", "meanings", "reader"]
 
 _NOTHING_KNOWN = Known()
 _COMMAND_LEADS = b"%#$~@"
 _RESPONSE_LEADS = b"!>?"
+LEADS = _COMMAND_LEADS + _RESPONSE_LEADS
+"""The characters that DCON frames begin with."""
 _REMEMBERED = 256
 """Commands, and sets of profiles, that are cached: a host that polls sends the same again and again."""
 
@@ -84,8 +86,8 @@ class DconReader:
     def meanings(self, frame: bytes, asked: bytes | None = None) -> tuple[Meaning, ...]:
         r"""Return what a frame can mean, as the response to `asked` if that is given.
 
-        Special: factory defaults are tried first. A meaning with numbers that no module of their types writes is
-            given, as a misfit, only if no other type or data format fits.
+        Special: factory defaults are tried first, and not used if they exclude a meaning. A meaning with numbers that
+            no module of their types writes is given, as a misfit, only if no other type or data format fits.
         Errors: `DecodeError` if it means nothing.
 
         >>> [type(meaning.message).__name__ for meaning in DconReader(Known()).meanings(b"$01A\r")]
@@ -103,7 +105,7 @@ class DconReader:
                         (misfits if misfit else read).append((found, readings, misfit))
                 except DecodeError as fault:
                     faults.append(fault)
-            if read:
+            if read and (not misfits or attempts is stages[-1]):
                 return self._meanings(read)
         if misfits:
             return self._meanings(misfits)

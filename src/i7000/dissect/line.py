@@ -4,10 +4,13 @@ A `Line` is the state: what was heard so far, and what is known about each modul
 pieces, `hear_frame` a single frame, as in a log.
 
 Laws: every byte is in exactly one `Heard`, or in `Line.rest`. A frame never changes the result of an earlier one. No
-bytes raise.
+bytes raise. Noise changes nothing that is known, nor which command waits for an answer.
 """
 
+from attrs import evolve
+
 from i7000.arguments import as_bytes, check_type
+from i7000.dissect.dcon import LEADS
 from i7000.dissect.heard import Heard, Line, Place, updated
 from i7000.dissect.line_dcon import hear_dcon
 from i7000.dissect.line_modbus import hear_broadcast, hear_modbus
@@ -48,13 +51,14 @@ def _hear_split(
     check_type("sent", sent, bool, optional=True)
     spans, rest = split(data, line.protocol, last=last)
     found = []
-    for protocol, wire, fault in spans:
-        if fault is None:
-            line, heard = _hear(line, wire, protocol, _next(line, where), sent=sent)
+    for protocol, wire, is_frame in spans:
+        heard_line, heard = _hear(line, wire, protocol, _next(line, where), sent=sent)
+        if is_frame:
+            line = heard_line
         else:
-            place = _next(line, where)
-            line = updated(line, count=place.number)
-            heard = Heard(place, wire, protocol, error=DecodeError(fault, wire))
+            line = updated(line, count=heard.place.number)
+            if protocol is Protocol.DCON and wire[0] not in LEADS:
+                heard = evolve(heard, error=DecodeError(Fault.LEADING, wire))
         found.append(heard)
     return updated(line, rest=rest), tuple(found)
 

@@ -249,6 +249,8 @@ def _differences(known: Known, meanings: tuple[Meaning, ...]) -> tuple[tuple[str
     if certain:
         shown = tuple(name for name in certain if name != "firmware")  # There is no version to be learned.
         return shown, ", ".join(_SHOWN[name] for name in certain)
+    if not all(meaning.readings for meaning in meanings):  # one of them depends on neither
+        return (), ""
     formats = {"another data format" for it in profiles if it.data_format is not default.data_format}
     return (), " or ".join(("another type", *formats))
 
