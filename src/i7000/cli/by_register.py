@@ -19,7 +19,7 @@ from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
 
-__all__ = ["AREAS", "NUMBER", "area_words", "held", "is_of_registers", "is_reading", "number_note"]
+__all__ = ["AREAS", "NUMBER", "area_words", "is_of_registers", "is_reading", "number_note", "take_fields"]
 
 AREAS: Mapping[type[Any], Area] = {
     modbus.ReadCoils: Area.COIL,
@@ -53,7 +53,9 @@ def is_reading(kind: type[Message]) -> bool:
     return "count" in parts_of(kind)
 
 
-def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
+def take_fields(
+    kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool
+) -> dict[str, Any]:
     """Take the fields for registers out of `given`, and return their values.
 
     Special: with `force` only names are replaced by addresses; values stay in `given`, to be read as plain numbers.

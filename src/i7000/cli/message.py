@@ -25,7 +25,7 @@ from i7000 import (
     dcon,
     modbus,
 )
-from i7000.cli.by_register import held, is_of_registers
+from i7000.cli.by_register import is_of_registers, take_fields
 from i7000.cli.choices import chosen
 from i7000.cli.numbers import baud_rate, hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
@@ -168,7 +168,7 @@ def make(
     SetChannelMask(address=0x01, mask=0x3A)
     """
     given = _given(kind, assignments)
-    values = held(kind, given, registers, force=force) if is_of_registers(kind) else {}
+    values = take_fields(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
     for field, attribute in parts_of(kind).items():
         part = _PARTS.get(field)
