@@ -74,6 +74,8 @@ COMMANDS = (
     [
         ("", f"error: '' is not a command; {COMMANDS}"),
         ("reset 01", f"error: 'reset' is not a command; {COMMANDS}"),
+        ("\udcff\udcfe", rf"error: '\xff\xfe' is not a command; {COMMANDS}"),
+        ("init \udcff on", r"error: '\xff' is not "),
         ("fault late=2", "error: 'late=2': late cannot be 2: 0..1"),
         ("power-cycle 2", "error: no module has the address 02, only 01, 1Fh (31)"),
         ("power-cycle all", "error: 'all' is not "),
@@ -81,7 +83,7 @@ COMMANDS = (
         ("init 01 up", "error: 'up' is not true or false"),
         ("signal", "error: '': write [ADDRESS:]CHANNELS=SIGNAL, such as 0=1.5V"),
         ("signal 01:9=1V", "error: '01:9=1V': I-7018 at 01"),
-        ("signal cjc=open", "error: 'cjc=open': cold_junction cannot be"),
+        ("signal cjc=open", "error: 'cjc=open': cjc must be a temperature in degC"),
         ("signal 0=csv:/nowhere\x1b.csv", r"error: '0=csv:/nowhere\x1b.csv': /nowhere\x1b.csv: No such file"),
         ("quit now", "error: quit has no arguments"),
     ],

@@ -268,3 +268,34 @@ def test_without_a_model_values_are_the_numbers_of_the_frame(run: Run) -> None:
     frame = encoded(run, "WriteSingleRegister address=1 register=488 value=25 --protocol rtu")
 
     assert seal(bytes.fromhex("010601E80019")).hex(" ").upper() == frame
+
+
+@pytest.mark.parametrize("options", ["", "--model M-7019R --force"])
+def test_a_number_of_the_manual_in_place_of_an_address_is_encoded_with_a_note(run: Run, options: str) -> None:
+    result = run("encode", *f"ReadHoldingRegisters address=1 start=40489 count=1 {options}".split())
+
+    note = "start=40489: 40489 looks like a number of the manual; its address in frames is 488"
+    assert (result.code, result.out, result.err) == (0, "01 03 9E 29 00 01 7A 2A\n", f"i7000: {note}\n")
+
+
+@pytest.mark.parametrize("start", ["488", "0x9E29", "10000"])
+def test_other_addresses_are_encoded_without_a_note(run: Run, start: str) -> None:
+    result = run("encode", *f"ReadHoldingRegisters address=1 start={start} count=1".split())
+
+    assert (result.code, result.err) == (0, "")
+
+
+def test_what_every_model_allows_is_named_if_all_refuse_a_value(run: Run) -> None:
+    result = run("encode", "ReadChannelTypeCode", "address=1", "channel=16")
+
+    assert result.err == (
+        "i7000: no model accepts it: channel cannot be 16: "
+        "0..7 on I-7017R, M-7017R, M-7017RMS, I-7018R, M-7018R, I-7019R, M-7019R; "
+        "0..9 on I-7017Z, M-7017Z, I-7018Z, M-7018Z, M-7019Z; 0..15 on M-7017mC-16, manual 2.16\n"
+    )
+
+
+def test_where_models_allow_too_much_to_be_named_the_first_stands_for_them(run: Run) -> None:
+    result = run("encode", "SetChannelTypeCode", "address=1", "channel=1", "type_code=50")
+
+    assert result.err.endswith("MA_0_20 on I-7017R, manual 2.15\n")

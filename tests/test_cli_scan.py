@@ -13,7 +13,7 @@ import pytest
 from i7000 import LineSettings, Protocol
 from i7000.cli import scanning
 from i7000.cli.scanning import GUIDE, Search, advice, duration_words
-from i7000.host.procedures import EVERY_LINE, SCAN_POLICY, Heard
+from i7000.host.procedures import EVERY_LINE, SCAN_POLICY, FindingKind
 from i7000.link import VirtualPort, open_target
 from i7000.simulator.faults import Faults
 from tests.simulation import MAIN, free_port, process
@@ -167,7 +167,7 @@ def test_what_was_heard_that_is_no_answer_is_summed_up(
 
 
 def test_everything_that_can_be_heard_has_words() -> None:
-    assert {*scanning._HEARD} == {*Heard} - {Heard.NOTHING, Heard.ANSWER, Heard.REFUSAL}  # noqa: SLF001
+    assert {*scanning._HEARD} == {*FindingKind} - {FindingKind.NOTHING, FindingKind.ANSWER, FindingKind.REFUSAL}  # noqa: SLF001
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,7 @@ def test_single_ended_inputs_are_twenty() -> None:
             "type_codes",
             "8 type codes, or none, on I-7017",
         ),
-        (Model.I_7017, {"type_codes": [TypeCode.V_10] * 8}, "type_codes", "a tuple"),
+        (Model.I_7017, {"type_codes": [TypeCode.V_10] * 8}, "type_codes", "an instance of tuple"),
         (Model.I_7017, {"type_codes": (0x08,) * 8}, "type_codes", "cannot be 8: members of TypeCode"),
         (Model.I_7017, {"type_codes": ([],) * 8}, "type_codes", "members of TypeCode"),
         (
@@ -65,14 +65,14 @@ def test_single_ended_inputs_are_twenty() -> None:
             "V_10 V_5 V_1_0A",
         ),
         (Model.M_7017, {"single_ended": True}, "single_ended", "7017Z only"),
-        (Model.M_7017Z, {"single_ended": 1}, "single_ended", "a bool"),
-        (Model.M_7017Z, {"checksum": None}, "checksum", "a bool"),
-        (Model.M_7017Z, {"data_format": 2}, "data_format", "a DataFormat"),
-        (Model.M_7017Z, {"modbus_data_format": 0}, "modbus_data_format", "a ModbusDataFormat"),
+        (Model.M_7017Z, {"single_ended": 1}, "single_ended", "True or False"),
+        (Model.M_7017Z, {"checksum": None}, "checksum", "True or False"),
+        (Model.M_7017Z, {"data_format": 2}, "data_format", "a member of DataFormat"),
+        (Model.M_7017Z, {"modbus_data_format": 0}, "modbus_data_format", "a member of ModbusDataFormat"),
         (Model.I_7017, {"modbus_data_format": ModbusDataFormat.ENGINEERING}, "modbus_data_format", "no Modbus"),
         (Model.I_7017, {"firmware": "B2.2"}, "firmware", "a Firmware, or None"),
-        ("I-7017", {}, "model", "a Model"),
-        ("I-7017", {"type_codes": ()}, "model", "a Model"),
+        ("I-7017", {}, "model", "a member of Model"),
+        ("I-7017", {"type_codes": ()}, "model", "a member of Model"),
     ],
 )
 def test_an_impossible_profile_is_refused_with_the_reason(model: Any, values: Any, field: str, reason: str) -> None:
@@ -194,3 +194,18 @@ def test_a_profile_is_made_and_changed_in_few_calls(model: Model) -> None:
 
     assert calls_of(lambda: Profile(model)) <= 20
     assert calls_of(lambda: evolve(profile, checksum=True)) <= 30
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"model": "M-7017"}, "model cannot be 'M-7017': a member of Model"),
+        ({"checksum": 1}, "checksum cannot be 1: True or False"),
+        ({"firmware": "B2.9"}, "firmware cannot be 'B2.9': a Firmware, or None for the newest"),
+    ],
+)
+def test_a_field_of_another_type_is_refused_in_words(fields: Any, message: str) -> None:
+    with pytest.raises(EncodeError) as refused:
+        Profile(**{"model": Model.I_7018} | fields)
+
+    assert str(refused.value) == message

@@ -5,6 +5,8 @@ wrong type raises `ArgumentError`; a value out of range does not.
 """
 
 from collections.abc import Iterable, Mapping
+from enum import Enum
+from types import NoneType
 from typing import Any, TypeVar
 
 from i7000.errors import ArgumentError, InvalidValueError, StateError
@@ -18,6 +20,7 @@ __all__ = [
     "check_seconds",
     "check_type",
     "is_number",
+    "kind_words",
 ]
 
 T = TypeVar("T")
@@ -82,8 +85,21 @@ def check_fields(instance: object, kinds: Mapping[str, tuple[type, ...]]) -> Non
     for name, allowed in kinds.items():
         value = getattr(instance, name)
         if not isinstance(value, allowed):
-            names = " or ".join(kind.__name__ for kind in allowed)
-            raise InvalidValueError(name, value, f"an instance of {names}", "")
+            raise InvalidValueError(name, value, " or ".join(map(kind_words, allowed)), "")
+
+
+def kind_words(kind: type) -> str:
+    """Return the words for the values of a class, for messages.
+
+    >>> kind_words(bool), kind_words(int), kind_words(type(None))
+    ('True or False', 'an instance of int', 'None')
+    """
+    if kind in _KIND_WORDS:
+        return _KIND_WORDS[kind]
+    return f"{'a member' if issubclass(kind, Enum) else 'an instance'} of {kind.__name__}"
+
+
+_KIND_WORDS: dict[type, str] = {bool: "True or False", NoneType: "None"}
 
 
 def is_number(value: object) -> bool:

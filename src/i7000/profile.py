@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from attrs import Factory, field
 
-from i7000.arguments import check_int, check_type
+from i7000.arguments import check_int, check_type, kind_words
 from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.fields import TEXT_WIDTH
@@ -155,9 +155,9 @@ class Profile:
             ("type_codes", self.type_codes, tuple),
         ):
             if not isinstance(value, kind):
-                raise EncodeError(name, value, f"a {kind.__name__}", "1.11")
+                raise EncodeError(name, value, kind_words(kind), "")
         if self.firmware is not None and not isinstance(self.firmware, Firmware):
-            raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "2.23")
+            raise EncodeError("firmware", self.firmware, "a Firmware, or None for the newest", "")
         if self.single_ended and self.model not in Availability.SERIES_7017Z.gates:
             allowed = f"7017Z only, {self.model.value} has no such mode"
             raise EncodeError("single_ended", True, allowed, "2.43")

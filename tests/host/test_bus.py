@@ -119,7 +119,7 @@ def test_a_request_that_the_module_does_not_have_is_refused_and_changes_nothing(
 
 @pytest.mark.parametrize("name", ["line", "policy", "echo", "pending", "last", "rest"])
 def test_a_line_has_no_field_of_another_type(name: str) -> None:
-    with pytest.raises(InvalidValueError, match=rf"{name} cannot be 'text': an instance of \w+"):
+    with pytest.raises(InvalidValueError, match=rf"{name} cannot be 'text': (an instance of \w+|True or False)"):
         Bus(**{name: "text"})  # type: ignore[arg-type]
 
 

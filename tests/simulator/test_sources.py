@@ -239,7 +239,7 @@ def test_a_refusal_names_value_and_what_is_allowed() -> None:
     with pytest.raises(InvalidValueError) as refused:
         Ramp(0, 10, 0, Unit.VOLT)
 
-    assert str(refused.value) == "period cannot be 0.0: more than 0 seconds, Ramp"
+    assert str(refused.value) == "period cannot be 0.0: more than 0 seconds"
 
 
 # --- of a module ------------------------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ numbers (40489) are refused, since frames have addresses (488), and the address 
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from i7000 import InvalidValueError, LineSettings, TypeCode, modbus
@@ -19,7 +19,7 @@ from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
 
-__all__ = ["AREAS", "NUMBER", "area_words", "held", "is_of_registers", "is_reading"]
+__all__ = ["AREAS", "NUMBER", "area_words", "is_of_registers", "is_reading", "number_note", "take_fields"]
 
 AREAS: Mapping[type[Any], Area] = {
     modbus.ReadCoils: Area.COIL,
@@ -53,7 +53,9 @@ def is_reading(kind: type[Message]) -> bool:
     return "count" in parts_of(kind)
 
 
-def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool) -> dict[str, Any]:
+def take_fields(
+    kind: type[Message], given: dict[str, str], registers: RegisterMap | None, *, force: bool
+) -> dict[str, Any]:
     """Take the fields for registers out of `given`, and return their values.
 
     Special: with `force` only names are replaced by addresses; values stay in `given`, to be read as plain numbers.
@@ -83,6 +85,21 @@ def held(kind: type[Message], given: dict[str, str], registers: RegisterMap | No
     for address in range(found[field], found[field] + min(found.get("count", 0), MOST_BITS)):
         _row(kind, address, registers)
     return found
+
+
+def number_note(kind: type[Message], assignments: Iterable[str]) -> str | None:
+    """Return a note if an address looks like a number of the manual; None otherwise.
+
+    >>> number_note(modbus.ReadHoldingRegisters, ["address=1", "start=40489"])
+    'start=40489: 40489 looks like a number of the manual; its address in frames is 488'
+    """
+    for assignment in assignments if is_of_registers(kind) else ():
+        field, _, text = assignment.partition("=")
+        if field in _PLACES and NUMBER.fullmatch(text) and int(text[1:]):
+            return (
+                f"{assignment}: {text} looks like a number of the manual; its address in frames is {int(text[1:]) - 1}"
+            )
+    return None
 
 
 def _is_number(text: str) -> bool:

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 from attrs import frozen
 
 from i7000.cli.faults import faults_words, read_faults
-from i7000.cli.text import escaped
+from i7000.cli.text import escaped, undecodable_as_bytes
 from i7000.cli.words import UsageError
 from i7000.errors import I7000Error
 from i7000.simulator.faults import Faults
@@ -67,12 +67,12 @@ class Control:
         command = self._commands.get(name)
         if command is None:
             known = "; ".join(it.syntax for it in self._commands.values())
-            return escaped(f"error: {name!r} is not a command; commands are {known}")
+            return escaped(undecodable_as_bytes(f"error: {name!r} is not a command; commands are {known}"))
         try:
             async with self._turn:
                 said = await command.run(arguments.strip())
         except (UsageError, I7000Error, OSError) as error:
-            return escaped(f"error: {error}")
+            return escaped(undecodable_as_bytes(f"error: {error}"))
         return escaped(f"ok {said}".rstrip())
 
     async def _fault(self, text: str) -> str:

@@ -52,7 +52,8 @@ def decode(  # noqa: PLR0913 - each of them is an option
 
     Each response is decoded together with its command. What the traffic shows about a module is used from then on: its
     name, firmware, types, data format, checksum. Without `--model`, every possible meaning is listed. With `--model`,
-    what is neither given nor shown has its factory default, if the frame fits it.
+    what is neither given nor shown has its factory default, if the frame fits it. For several modules, give each with
+    its address: `--model 1=M-7019R --model 2=I-7018`.
 
     Examples: `i7000 decode '$012' '!01050600'`, `i7000 decode --model M-7019R --type K --file bus.log`,
     `i7000 decode --model 1=M-7019R@B3.7,type=K --model 2=I-7018,checksum=true --file bus.pcapng`

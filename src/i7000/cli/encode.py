@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000 import InvalidValueError
+from i7000.cli.by_register import number_note
 from i7000.cli.message import DCON, MODBUS, find, frame_text, make, refusal_words, registers
 from i7000.cli.message import encode as encode_message
 from i7000.cli.options import UNKNOWN, Json, Module
@@ -38,7 +39,8 @@ def encode(
     * A list has commas: `values=+01.500,-01.500`; in Modbus `values=1,0x1F` or `values=true,false`.
     * In Modbus, `start`, `coil` and `register` are addresses as in frames: 488 for 40489. With `--model` they can be
       names, `register=host_watchdog_timeout value=2.5`. Values then have the units of `i7000 registers`, and what the
-      model does not have is refused. Without `--model`, or with `--force`, values are the numbers in the frame.
+      model does not have is refused. Without `--model`, or with `--force`, values are the numbers in the frame, and an
+      address that looks like a number of the manual is encoded with a note on standard error.
 
     Examples: `i7000 encode ReadConfiguration address=1`,
     `i7000 encode SetChannelMask address=1 channels=1,3,4,5 --model I-7018`,
@@ -65,4 +67,7 @@ def encode(
     in_hex: list[Line] = [] if protocol == "rtu" else [[(frame.hex(" "), "")]]
     printer.record(record, [[(text, "bold")], *in_hex])
     printer.flush()
+    note = number_note(kind, fields)
+    if note is not None:
+        printer.note(note)
     return 0

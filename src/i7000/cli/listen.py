@@ -43,7 +43,8 @@ def listen(  # noqa: PLR0913 - each of them is an option
 
     What the traffic shows of a module is used from then on, as in `i7000 decode`. `--json` writes the same objects.
     `i7000 decode --file` reads a file that is recorded; if its disk is full, the recording stops, not the listening.
-    Output that nobody reads is dropped and counted.
+    Output that nobody reads is dropped and counted. For several modules, give each with its address: `--model
+    1=M-7019R --model 2=I-7018`.
 
     Example: `i7000 listen /dev/ttyUSB0 --baud 9600 --record bus.jsonl --pcap bus.pcapng`
 

@@ -19,12 +19,13 @@ from i7000 import (
     Filter,
     InvalidValueError,
     LineSettings,
+    Model,
     Profile,
     ReportSettings,
     dcon,
     modbus,
 )
-from i7000.cli.by_register import held, is_of_registers
+from i7000.cli.by_register import is_of_registers, take_fields
 from i7000.cli.choices import chosen
 from i7000.cli.numbers import baud_rate, hex_byte, integer, is_hex
 from i7000.cli.records import parts_of
@@ -79,8 +80,8 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
         except InvalidValueError as refusal:
             refusals.append((profile, refusal))
     if not frames:
-        having = (refusal for profile, refusal in refusals if message.availability not in profile.refused)
-        raise next(having, refusals[0][1])
+        having = [(profile, refusal) for profile, refusal in refusals if message.availability not in profile.refused]
+        raise _refusal(having or refusals[:1])
     first, *others = frames
     if others:
         ways = "; ".join(
@@ -89,6 +90,23 @@ def encode(message: Message, known: Known, *, force: bool) -> bytes:
         )
         raise UsageError(f"the frame depends on the model, give --model: {ways}")
     return first
+
+
+def _refusal(refusals: Sequence[tuple[Profile, InvalidValueError]]) -> InvalidValueError:
+    """Return one refusal for all models: with what each of them allows, where that depends on the model."""
+    models: dict[str, list[Model]] = {}
+    for profile, refusal in refusals:
+        allowed = refusal.allowed.removesuffix(f" on {profile.model.value}")
+        models.setdefault(allowed, []).append(profile.model)
+    (profile, first), *_ = refusals
+    words = "; ".join(f"{allowed} on {models_words(having, '')}" for allowed, having in models.items())
+    if not first.allowed.endswith(f" on {profile.model.value}") or len(words) > _LONGEST_ALLOWED:
+        return first
+    return InvalidValueError(first.field, first.value, words, first.section, first.reason)
+
+
+_LONGEST_ALLOWED = 400
+"""The characters of what all models allow; if there are more, that of the first model stands for it."""
 
 
 def _encoded(message: Message, profile: Profile, *, force: bool) -> bytes:
@@ -150,7 +168,7 @@ def make(
     SetChannelMask(address=0x01, mask=0x3A)
     """
     given = _given(kind, assignments)
-    values = held(kind, given, registers, force=force) if is_of_registers(kind) else {}
+    values = take_fields(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
     for field, attribute in parts_of(kind).items():
         part = _PARTS.get(field)

@@ -35,8 +35,7 @@ class Module:
     """What is known about the modules."""
 
     model: Texts = ()
-    """Model of the module, with settings if you like: I-7018R or M-7019R@B3.7,type=K; see `i7000 simulate --help`. For
-    several modules, give each with its address: --model 1=M-7019R --model 2=I-7018."""
+    """Model of the module, with settings if you like: I-7018R or M-7019R@B3.7,type=K; see `i7000 simulate --help`."""
     firmware: str | None = None
     """Firmware of the module, such as B3.9; the newest unless given."""
     types: Annotated[str | None, Parameter(name="--type")] = None

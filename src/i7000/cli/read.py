@@ -55,7 +55,7 @@ def read(  # noqa: PLR0913 - each of them is an option
 
     The command first identifies each module and reads its types and settings. Standard error gets a line with the model
     and the reasons. What you give with `--model` and other options replaces what the module says; a contradiction is
-    reported. Modules of both protocols can share a line.
+    reported. Modules of both protocols can share a line: `--model 1=M-7019R --model 2=I-7018`.
 
     With `--every`, a terminal shows a live view: values, their age, minimum and maximum, and counters of what happened
     on the line. Elsewhere there is a line for each module and time. A period that is over before the last reading ended

@@ -24,7 +24,7 @@ from i7000.host import Policy
 from i7000.host.procedures import (
     EVERY_LINE,
     Finding,
-    Heard,
+    FindingKind,
     Identified,
     Place,
     Procedure,
@@ -188,11 +188,11 @@ def _stored_record(stored: Stored) -> dict[str, Any]:
 
 
 _HEARD = {
-    Heard.ECHO: "the echo of the requests: give --echo",
-    Heard.NOISE: "bytes that are not a frame: devices with other line settings, swapped wires, or interference",
-    Heard.FRAME: "frames that are not the response: another host is sending, or responses are late (--timeout 0.5)",
-    Heard.OTHER_PROTOCOL: "frames of the other protocol: another host is sending",
-    Heard.WRONG_CHECKSUM: "frames with a wrong checksum: interference, or several modules with the same address",
+    FindingKind.ECHO: "the echo of the requests: give --echo",
+    FindingKind.NOISE: "bytes that are not a frame: devices with other line settings, swapped wires, or interference",
+    FindingKind.FRAME: "frames that are not the response: another host sends, or responses are late (--timeout 0.5)",
+    FindingKind.OTHER_PROTOCOL: "frames of the other protocol: another host is sending",
+    FindingKind.WRONG_CHECKSUM: "frames with a wrong checksum: interference, or several modules with the same address",
 }
 GUIDE = "docs/find_a_module.md"
 

@@ -6,7 +6,7 @@ Laws: any text gives a value or a `UsageError` that names what was written and w
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
-from i7000 import Unit
+from i7000 import InvalidValueError, Unit
 from i7000.cli.module import named
 from i7000.cli.numbers import integer
 from i7000.cli.words import (
@@ -102,7 +102,10 @@ def _units(text: str, eeprom: Eeprom) -> dict[str, Unit]:
 def _connected(sources: Sources, changed: dict[str, Source]) -> Sources:
     """Change what is connected, by columns."""
     channels = tuple(changed.get(str(channel), source) for channel, source in enumerate(sources.channels))
-    return Sources(channels, changed.get(COLD_JUNCTION, sources.cold_junction))
+    try:
+        return Sources(channels, changed.get(COLD_JUNCTION, sources.cold_junction))
+    except InvalidValueError as refusal:  # of the cold junction: the others are sources
+        raise UsageError(f"cjc must be {refusal.allowed}") from None
 
 
 def _maker(text: str) -> Callable[[dict[str, Unit], str], dict[str, Source]]:

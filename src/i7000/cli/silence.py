@@ -8,19 +8,19 @@ from collections.abc import Collection
 from attrs import evolve
 
 from i7000 import Protocol
-from i7000.host.procedures import SCAN_POLICY, Heard, Place, scan
+from i7000.host.procedures import SCAN_POLICY, FindingKind, Place, scan
 from i7000.link import Line
 
 __all__ = ["protocol_words", "silence_cause"]
 
 _INIT_ADDRESS = 0x00
 _CAUSES = {
-    Heard.NOTHING: "nothing came: check the address, --baud, the power and the wires (swap A and B)",
-    Heard.ECHO: "only the echo of the request came: give --echo",
-    Heard.NOISE: "bytes came that are not a frame: another --baud or --character-format, swapped wires or interference",
-    Heard.FRAME: "a frame came that is not the response: another host or module is sending",
-    Heard.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending",
-    Heard.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules with the same address",
+    FindingKind.NOTHING: "nothing came: check the address, --baud, the power and the wires (swap A and B)",
+    FindingKind.ECHO: "only the echo of the request came: give --echo",
+    FindingKind.NOISE: "bytes came that are not a frame: another --baud or --character-format, or swapped wires",
+    FindingKind.FRAME: "a frame came that is not the response: another host or module is sending",
+    FindingKind.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending",
+    FindingKind.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules at one address",
 }
 """What was heard, the more telling the later, and what to do."""
 
@@ -49,7 +49,8 @@ def silence_cause(line: Line, address: int, tried: Collection[tuple[Protocol, bo
         return (
             "a module in INIT mode answers at address 00: give --address 0, or switch INIT off and its power off and on"
         )
-    return _CAUSES[max((finding.heard for finding in scanned.findings), key=[*_CAUSES].index, default=Heard.NOTHING)]
+    found = (finding.heard for finding in scanned.findings)
+    return _CAUSES[max(found, key=[*_CAUSES].index, default=FindingKind.NOTHING)]
 
 
 def _device_cause(place: Place, tried: Collection[tuple[Protocol, bool]]) -> str:

@@ -32,6 +32,7 @@ __all__ = [
     "printable",
     "register_lines",
     "request_lines",
+    "undecodable_as_bytes",
 ]
 
 Line = list[tuple[str, str]]
@@ -100,7 +101,7 @@ class Printer:
         """Print a message beside the output, on standard error."""
         with suppress(OSError):  # `program` reports that the output cannot be written.
             self.flush()
-        line = [(f"i7000: {message}", style)]
+        line = [(undecodable_as_bytes(f"i7000: {message}"), style)]
         if _is_styled(sys.stderr):
             _print(self.err, _text(line))
         elif sys.stderr:
@@ -165,6 +166,20 @@ def escaped(text: str) -> str:
     '\\x1b[2J'
     """
     return text if text.isascii() and text.isprintable() else text.translate(_ESCAPES)
+
+
+_UNDECODABLE = re.compile(r"(?<!\\)(?P<pairs>(?:\\\\)*)\\udc(?P<byte>[89a-f][0-9a-f])")
+
+
+def undecodable_as_bytes(text: str) -> str:
+    r"""Write bytes that are not UTF-8 as such in a message that has the `repr` of a text with them.
+
+    >>> print(undecodable_as_bytes(f"{chr(0xDCFF)!r} is not a command"))
+    '\xff' is not a command
+    >>> print(undecodable_as_bytes(r"'\\udcff'"))
+    '\\udcff'
+    """
+    return _UNDECODABLE.sub(r"\g<pairs>\\x\g<byte>", text)
 
 
 def printable(text: "Text", encoding: str) -> "Text":

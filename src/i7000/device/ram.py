@@ -4,7 +4,7 @@ from types import NoneType
 
 from attrs import frozen
 
-from i7000.arguments import check_seconds, is_number
+from i7000.arguments import check_seconds, is_number, kind_words
 from i7000.errors import InvalidValueError
 from i7000.readings import Reading
 from i7000.settings import CjcUpdate, LineSettings, Protocol, is_int
@@ -60,7 +60,7 @@ class Ram:
         """
         value, kinds = getattr(self, name), _KEPT[name]
         if not isinstance(value, kinds):
-            raise InvalidValueError(name, value, f"an instance of {' or '.join(kind.__name__ for kind in kinds)}", "")
+            raise InvalidValueError(name, value, " or ".join(map(kind_words, kinds)), "")
         if name in _BYTES and not is_int(value, 0, 0xFF):
             raise InvalidValueError(name, value, "00..FF", _BYTES[name])
         if name in _TIMES and value is not None:

@@ -24,9 +24,9 @@ class Signal:
 
     def __attrs_post_init__(self) -> None:
         if not is_number(self.value):
-            raise InvalidValueError("value", self.value, "a finite number", "1.11")
+            raise InvalidValueError("value", self.value, "a finite number", "")
         if not isinstance(self.unit, Unit):
-            raise InvalidValueError("unit", self.unit, "a Unit", "1.11")
+            raise InvalidValueError("unit", self.unit, f"a member of Unit: {', '.join(Unit.__members__)}", "")
 
 
 OPEN_WIRE = None
@@ -56,7 +56,7 @@ class Signals:
 
     def __attrs_post_init__(self) -> None:
         if not isinstance(self.channels, tuple) or not {Signal, type(OPEN_WIRE)}.issuperset(map(type, self.channels)):
-            raise InvalidValueError("channels", self.channels, "a tuple of signals and open wires", "1.11")
+            raise InvalidValueError("channels", self.channels, "a tuple of signals and open wires", "")
         if not is_number(self.cold_junction) or not _COLDEST <= self.cold_junction <= _HOTTEST:
             raise InvalidValueError("cold_junction", self.cold_junction, f"{_COLDEST:g}..{_HOTTEST:g} degC", "2.11")
 

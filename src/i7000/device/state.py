@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from attrs import Attribute, evolve, field, fields_dict, frozen
 
-from i7000.arguments import LARGEST_FLOAT, check_clock, check_seconds, check_type
+from i7000.arguments import LARGEST_FLOAT, check_clock, check_seconds, check_type, kind_words
 from i7000.device.logger import Log
 from i7000.device.ram import Ram
 from i7000.errors import ArgumentError, InvalidValueError
@@ -54,7 +54,7 @@ def _within(low: int, high: int) -> Check:
 def _a(kind: type) -> Check:
     def check(_: "Eeprom", attribute: "Attribute[Any]", value: object) -> None:
         if not isinstance(value, kind):
-            raise InvalidValueError(attribute.name, value, f"an instance of {kind.__name__}", "3.4")
+            raise InvalidValueError(attribute.name, value, kind_words(kind), "")
 
     return check
 
@@ -231,7 +231,7 @@ class State:
     def _profile(self) -> Profile:
         for name, value, kind in (("eeprom", self.eeprom, Eeprom), ("ram", self.ram, Ram)):
             if not isinstance(value, kind):
-                raise InvalidValueError(name, value, f"an instance of {kind.__name__}", "")
+                raise InvalidValueError(name, value, kind_words(kind), "")
         return profile_of(self.eeprom, checksum=self.ram.checksum)
 
     inputs: Inputs = field(init=False, eq=False, repr=False)

@@ -47,19 +47,19 @@ _REMEMBERED = 1024
 """The number of cached samples, of all modules together: more than the modules on one line."""
 
 
-def _finite(source: object, attribute: "Attribute[float]", value: float) -> None:
+def _finite(_: object, attribute: "Attribute[float]", value: float) -> None:
     if not isfinite(value):
-        raise InvalidValueError(attribute.name, value, f"a finite number, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, "a finite number", "")
 
 
-def _not_negative(source: object, attribute: "Attribute[float]", value: float) -> None:
+def _not_negative(_: object, attribute: "Attribute[float]", value: float) -> None:
     if not 0 <= value < inf:
-        raise InvalidValueError(attribute.name, value, f"0 or more, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, "0 or more", "")
 
 
-def _positive(source: object, attribute: "Attribute[float]", value: float) -> None:
+def _positive(_: object, attribute: "Attribute[float]", value: float) -> None:
     if not 0 < value < inf:
-        raise InvalidValueError(attribute.name, value, f"more than 0 seconds, {type(source).__name__}", "")
+        raise InvalidValueError(attribute.name, value, "more than 0 seconds", "")
 
 
 # --- sources ----------------------------------------------------------------------------------------------------------
@@ -103,7 +103,7 @@ class Ramp:
 
     def __attrs_post_init__(self) -> None:
         if self.high < self.low:
-            raise InvalidValueError("high", self.high, f"{self.low:g} or more, Ramp", "")
+            raise InvalidValueError("high", self.high, f"{self.low:g} or more", "")
 
     @property
     def extremes(self) -> tuple[Signal | None, ...]:

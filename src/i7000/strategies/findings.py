@@ -13,7 +13,7 @@ from i7000.host.procedures import (
     Candidate,
     ChannelFault,
     Finding,
-    Heard,
+    FindingKind,
     Identified,
     Place,
     Progress,
@@ -67,7 +67,7 @@ def identities(draw: st.DrawFn) -> Identified:
 
 def _findings() -> SearchStrategy[Finding]:
     names = st.none() | _MODELS.map(lambda model: model.factory_name)
-    heard = st.sampled_from([heard for heard in Heard if heard is not Heard.NOTHING])
+    heard = st.sampled_from([heard for heard in FindingKind if heard is not FindingKind.NOTHING])
     return st.builds(Finding, places(), heard, host.outcomes(), name=names, reason=_WORDS)
 
 

@@ -28,7 +28,7 @@ from i7000.host.procedures import (
     EVERY_LINE,
     SCAN_POLICY,
     Finding,
-    Heard,
+    FindingKind,
     Place,
     Progress,
     Result,
@@ -244,13 +244,13 @@ NAME = dcon.ReadModuleName(0x01)
 INPUT = modbus.ReadInputRegisters(0x01, 0, 1)
 
 
-def heard(protocol: Protocol, *others: Any, checksum: bool = False) -> Heard:
+def heard(protocol: Protocol, *others: Any, checksum: bool = False) -> FindingKind:
     """Return what a scan makes of traffic at one place."""
     command: Any = INPUT if protocol is Protocol.MODBUS_RTU else NAME
     result: Result[Any] = Result(TimedOut(command), others)
     outcomes = {type(command): lambda _: result}
     scanned, _ = run(scan([FAST], [0x01], [protocol], [checksum]), outcomes)
-    return scanned.findings[0].heard if scanned.findings else Heard.NOTHING
+    return scanned.findings[0].heard if scanned.findings else FindingKind.NOTHING
 
 
 READ_INPUT = modbus.encode(INPUT)
@@ -259,37 +259,37 @@ READ_INPUT = modbus.encode(INPUT)
 @pytest.mark.parametrize(
     ("others", "expected"),
     [
-        ((), Heard.NOTHING),
-        ((Noise(b"\xf0\x00", Fault.CHARACTER),), Heard.NOISE),
-        ((Rejected(b"$01M\r", Fault.LEADING, ""),), Heard.ECHO),
-        ((Rejected(b"$01M\r", Fault.LEADING, ""), Noise(b"\xf0", Fault.CHARACTER)), Heard.NOISE),
-        ((Rejected(b"$01M\r", Fault.LEADING, ""), Rejected(b"!027018\r", Fault.ADDRESS, "")), Heard.FRAME),
-        ((Late(b">+1.000\r"),), Heard.FRAME),
-        ((Noise(READ_INPUT, Fault.LEADING),), Heard.OTHER_PROTOCOL),
+        ((), FindingKind.NOTHING),
+        ((Noise(b"\xf0\x00", Fault.CHARACTER),), FindingKind.NOISE),
+        ((Rejected(b"$01M\r", Fault.LEADING, ""),), FindingKind.ECHO),
+        ((Rejected(b"$01M\r", Fault.LEADING, ""), Noise(b"\xf0", Fault.CHARACTER)), FindingKind.NOISE),
+        ((Rejected(b"$01M\r", Fault.LEADING, ""), Rejected(b"!027018\r", Fault.ADDRESS, "")), FindingKind.FRAME),
+        ((Late(b">+1.000\r"),), FindingKind.FRAME),
+        ((Noise(READ_INPUT, Fault.LEADING),), FindingKind.OTHER_PROTOCOL),
     ],
 )
-def test_what_is_received_in_place_of_a_dcon_response_has_a_name(others: Any, expected: Heard) -> None:
+def test_what_is_received_in_place_of_a_dcon_response_has_a_name(others: Any, expected: FindingKind) -> None:
     assert heard(Protocol.DCON, *others) is expected
 
 
 def test_a_frame_without_its_checksum_is_told_from_noise() -> None:
-    assert heard(Protocol.DCON, Noise(b"?01\r", Fault.CHECKSUM), checksum=True) is Heard.WRONG_CHECKSUM
+    assert heard(Protocol.DCON, Noise(b"?01\r", Fault.CHECKSUM), checksum=True) is FindingKind.WRONG_CHECKSUM
 
 
 @pytest.mark.parametrize(
     ("others", "expected"),
     [
-        ((), Heard.NOTHING),
-        ((Noise(b"\xf0\x00", Fault.ADDRESS),), Heard.NOISE),
-        ((Noise(READ_INPUT, Fault.CRC),), Heard.ECHO),
-        ((Noise(b"\x01\x04\x02\x00", Fault.CRC),), Heard.WRONG_CHECKSUM),
-        ((Noise(b"\x01\x84\x02\x00\x00", Fault.CRC),), Heard.WRONG_CHECKSUM),
-        ((Noise(b"\x01\x03\x02\x00\x00", Fault.CRC),), Heard.NOISE),
-        ((Noise(b"\x00!017018\r", Fault.ADDRESS),), Heard.OTHER_PROTOCOL),
-        ((Rejected(b"\x02\x04\x02\x00\x00\xfd\x30", Fault.ADDRESS, ""),), Heard.FRAME),
+        ((), FindingKind.NOTHING),
+        ((Noise(b"\xf0\x00", Fault.ADDRESS),), FindingKind.NOISE),
+        ((Noise(READ_INPUT, Fault.CRC),), FindingKind.ECHO),
+        ((Noise(b"\x01\x04\x02\x00", Fault.CRC),), FindingKind.WRONG_CHECKSUM),
+        ((Noise(b"\x01\x84\x02\x00\x00", Fault.CRC),), FindingKind.WRONG_CHECKSUM),
+        ((Noise(b"\x01\x03\x02\x00\x00", Fault.CRC),), FindingKind.NOISE),
+        ((Noise(b"\x00!017018\r", Fault.ADDRESS),), FindingKind.OTHER_PROTOCOL),
+        ((Rejected(b"\x02\x04\x02\x00\x00\xfd\x30", Fault.ADDRESS, ""),), FindingKind.FRAME),
     ],
 )
-def test_what_is_received_in_place_of_a_modbus_response_has_a_name(others: Any, expected: Heard) -> None:
+def test_what_is_received_in_place_of_a_modbus_response_has_a_name(others: Any, expected: FindingKind) -> None:
     assert heard(Protocol.MODBUS_RTU, *others) is expected
 
 
@@ -300,7 +300,7 @@ def test_a_refusal_proves_a_device_whose_name_is_not_known(named: Any) -> None:
     scanned, steps = run(scan([FAST], [0x01], [Protocol.MODBUS_RTU]), outcomes)
 
     (finding,) = scanned.devices
-    assert (finding.heard, finding.name, finding.models) == (Heard.REFUSAL, None, ())
+    assert (finding.heard, finding.name, finding.models) == (FindingKind.REFUSAL, None, ())
     assert finding.reason == "function 04 of address 0 is refused: exception 01, illegal function"
     assert commands(steps) == [INPUT, modbus.ReadModuleName(0x01)]
 
@@ -309,12 +309,12 @@ def test_a_module_that_refuses_its_name_is_found() -> None:
     scanned, _ = run(scan([FAST], [0x01], [Protocol.DCON], [False]), {dcon.ReadModuleName: refused})
 
     (finding,) = scanned.devices
-    assert (finding.heard, finding.name, finding.reason) == (Heard.REFUSAL, None, "$01M is refused")
+    assert (finding.heard, finding.name, finding.reason) == (FindingKind.REFUSAL, None, "$01M is refused")
 
 
 def test_a_finding_that_is_no_device_is_not_among_the_devices() -> None:
-    finding = Finding(Place(FAST, 0x01), Heard.NOISE, TimedOut(NAME))
-    device = Finding(Place(FAST, 0x01), Heard.ANSWER, Answered(NAME, dcon.ModuleName(0x01, "7018")))
+    finding = Finding(Place(FAST, 0x01), FindingKind.NOISE, TimedOut(NAME))
+    device = Finding(Place(FAST, 0x01), FindingKind.ANSWER, Answered(NAME, dcon.ModuleName(0x01, "7018")))
 
     assert Scanned((finding, device), 2).devices == (device,)
 

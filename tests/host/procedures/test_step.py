@@ -51,7 +51,7 @@ def test_a_step_can_report_anything() -> None:
     [
         (lambda: Ask(PROFILE, PROFILE), "command cannot be .*: an instance of Query"),  # type: ignore[arg-type]
         (lambda: Ask(READ, Model.M_7019R), "profile cannot be .*: an instance of Profile"),  # type: ignore[arg-type]
-        (lambda: Ask(READ, PROFILE, 2), "policy cannot be 2: an instance of Policy or NoneType"),  # type: ignore[arg-type]
+        (lambda: Ask(READ, PROFILE, 2), "policy cannot be 2: an instance of Policy or None"),  # type: ignore[arg-type]
         (lambda: Tune(9600), "line cannot be 9600: an instance of LineSettings"),  # type: ignore[arg-type]
         (lambda: Tune(LineSettings(0x2A)), r"baud_rate cannot be '2A': 03\.\.0A"),
         (lambda: Wait(-1), "seconds cannot be -1: seconds, 0 or more"),

@@ -18,7 +18,7 @@ from i7000.host.procedures.identify import identify
 from i7000.host.procedures.places import EVERY_LINE, SCAN_POLICY, Place, places, scan_time
 from i7000.host.procedures.read import ChannelFault, Report, read
 from i7000.host.procedures.restoring import Restoration, Restored, Status, Writing
-from i7000.host.procedures.scan import Finding, Heard, Progress, Scanned, scan
+from i7000.host.procedures.scan import Finding, FindingKind, Progress, Scanned, scan
 from i7000.host.procedures.settings import NOT_SETTINGS, Hazard, Setting, find_setting, hazard_of, settings_of
 from i7000.host.procedures.snapshot import SCHEMA_VERSION, Snapshot, snapshot
 from i7000.host.procedures.step import Ask, Procedure, Result, Step, Tell, Tune, Wait, ask
@@ -33,8 +33,8 @@ __all__ = [
     "Change",
     "ChannelFault",
     "Finding",
+    "FindingKind",
     "Hazard",
-    "Heard",
     "Identified",
     "Place",
     "Procedure",

@@ -23,11 +23,11 @@ from i7000.message import Response
 from i7000.models import Model
 from i7000.settings import LineSettings, Protocol
 
-__all__ = ["Finding", "Heard", "Progress", "Scanned", "scan"]
+__all__ = ["Finding", "FindingKind", "Progress", "Scanned", "scan"]
 
 
-class Heard(Enum):
-    """What was received at a place."""
+class FindingKind(Enum):
+    """The kind of what was received at a place."""
 
     NOTHING = "nothing"
     """No byte."""
@@ -56,7 +56,7 @@ class Finding:
     """
 
     place: Place
-    heard: Heard
+    heard: FindingKind
     outcome: Ended
     name: str | None = field(default=None, kw_only=True)
     models: tuple[Model, ...] = field(default=(), kw_only=True)
@@ -65,7 +65,7 @@ class Finding:
     @property
     def is_device(self) -> bool:
         """Whether a device is at the place: it answered, or refused."""
-        return self.heard in (Heard.ANSWER, Heard.REFUSAL)
+        return self.heard in (FindingKind.ANSWER, FindingKind.REFUSAL)
 
 
 @frozen
@@ -132,7 +132,7 @@ def _scan(looked: tuple[Place, ...], policy: Policy) -> Procedure[Scanned]:
             line = place.line
             yield Tune(line)
         finding = yield from _look(place, policy)
-        if finding.heard is Heard.NOTHING:
+        if finding.heard is FindingKind.NOTHING:
             continue
         findings.append(finding)
         yield Tell(finding)
@@ -147,7 +147,7 @@ def _look(place: Place, policy: Policy) -> Procedure[Finding]:
     name = None
     models: tuple[Model, ...] = ()
     named: Result[Any] = result
-    if place.protocol is Protocol.MODBUS_RTU and heard in (Heard.ANSWER, Heard.REFUSAL):
+    if place.protocol is Protocol.MODBUS_RTU and heard in (FindingKind.ANSWER, FindingKind.REFUSAL):
         named = yield from ask(modbus.ReadModuleName(place.address), place.profile, policy)
     if isinstance(named.outcome, Answered):
         name, models = _identity(named.outcome.response)
@@ -166,23 +166,23 @@ def _identity(response: dcon.ModuleName | modbus.ModuleName) -> tuple[str, tuple
 # --- what was received ------------------------------------------------------------------------------------------------
 
 
-def heard_at(place: Place, result: Result[Response]) -> Heard:
+def heard_at(place: Place, result: Result[Response]) -> FindingKind:
     """Return what was received at a place."""
     if isinstance(result.outcome, Answered):
-        return Heard.ANSWER
+        return FindingKind.ANSWER
     if isinstance(result.outcome, Declined):
-        return Heard.REFUSAL
+        return FindingKind.REFUSAL
     wire = b"".join(other.wire for other in result.others)
     codec = dcon if place.protocol is Protocol.DCON else modbus
     request = codec.encode(place.question, place.profile)
     rest = wire.replace(request, b"", 1)
     if not rest:
-        return Heard.ECHO if wire else Heard.NOTHING
+        return FindingKind.ECHO if wire else FindingKind.NOTHING
     if _has_frames(rest, place):
-        return Heard.OTHER_PROTOCOL
+        return FindingKind.OTHER_PROTOCOL
     if any(not isinstance(other, Noise) and other.wire != request for other in result.others):
-        return Heard.FRAME
-    return Heard.WRONG_CHECKSUM if _has_wrong_checksum(rest, place, result) else Heard.NOISE
+        return FindingKind.FRAME
+    return FindingKind.WRONG_CHECKSUM if _has_wrong_checksum(rest, place, result) else FindingKind.NOISE
 
 
 def _has_frames(wire: bytes, place: Place) -> bool:
