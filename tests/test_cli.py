@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from i7000 import dcon
+from i7000 import __version__, dcon
 from i7000.cli import app, main
 from i7000.cli.message import DCON, encode, find, make
 from i7000.dissect.meaning import errata
@@ -362,3 +362,10 @@ def test_without_a_standard_error_a_wrong_call_still_has_its_exit_code(monkeypat
     monkeypatch.setattr(sys, "stderr", None)
 
     assert main(["decode", "--protocol", "none"]) == 2
+
+
+def test_only_the_program_has_a_version(run: Run) -> None:
+    assert run("--version").out == f"{__version__}\n"
+    told = run("decode", "--version")
+    assert (told.code, told.out) == (2, "")
+    assert "--version" in told.err

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from i7000 import Fault, Noise, dcon
+from i7000 import Fault, Noise, dcon, modbus
 from i7000.examples import async_driver, sync_driver
 from i7000.examples.task import Task, read_task
 from i7000.host import Late, Rejected, TimedOut
@@ -151,13 +151,16 @@ def test_a_port_that_disappears_ends_a_program_with_the_reason(
     assert capsys.readouterr().err == "sim:M-7019R: the port is lost: [Errno 5] no 1 bytes\n"
 
 
+HINT = "M-7000 modules speak Modbus RTU, unless they were set to DCON: try --modbus\n"
+
+
 @pytest.mark.parametrize(
     ("others", "text"),
     [
         ((), ""),
         ((Late(b"!01\r"),), ""),
-        ((Rejected(b"?01\r", Fault.LENGTH, "57 characters"),), "last rejected frame: b'?01\\r': 57 characters\n"),
-        ((Rejected(b"", Fault.LENGTH, ""), Noise(b"\xff", Fault.LEADING)), "last rejected frame: b'\\xff': leading\n"),
+        ((Rejected(b"?01\r", Fault.LENGTH, "57 characters"),), "last rejected frame: ?01\\r: 57 characters\n"),
+        ((Rejected(b"", Fault.LENGTH, ""), Noise(b"\xff", Fault.LEADING)), "last rejected frame: \\xFF: leading\n"),
     ],
     ids=["nothing", "late", "a frame", "noise"],
 )
@@ -168,4 +171,11 @@ def test_what_was_rejected_is_printed_beside_a_timeout(
     task = Task("", FAST, PROFILE, command, echo=False)
 
     assert task.show(Result(TimedOut(command), others)) == 1
-    assert capsys.readouterr().out == f"{TimedOut(command)}\n{text}"
+    assert capsys.readouterr().out == f"{TimedOut(command)}\n{text}{HINT}"
+
+
+def test_a_timeout_by_modbus_has_no_hint_at_modbus(capsys: pytest.CaptureFixture[str]) -> None:
+    command = modbus.ReadInputRegisters(0x01, 0, 8)
+
+    assert Task("", FAST, PROFILE, command, echo=False).show(Result(TimedOut(command))) == 1
+    assert capsys.readouterr().out == f"{TimedOut(command)}\n"

@@ -40,8 +40,8 @@ app = App(
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
 ):  # fmt: skip
-    app.command(_command)
-app.command(set_setting, name="set")
+    app.command(_command, version_flags=())
+app.command(set_setting, name="set", version_flags=())
 
 
 @app.command(name="--install-completion")

@@ -7,10 +7,10 @@ from contextlib import contextmanager
 
 from attrs import evolve, field, frozen
 
-from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Reading, TypeCode, dcon, modbus
+from i7000 import BaudRate, DecodeError, LineSettings, Model, Noise, Profile, Protocol, Reading, TypeCode, dcon, modbus
 from i7000.cli.numbers import integer
 from i7000.cli.words import UsageError
-from i7000.errors import InvalidValueError
+from i7000.errors import InvalidValueError, written
 from i7000.host import Answered, Query, Rejected
 from i7000.host.procedures import Result
 from i7000.link import LinkError
@@ -41,7 +41,9 @@ class Task:
             print(result.outcome)  # noqa: T201 - what a program prints
             for refused in [it for it in result.others if isinstance(it, Rejected | Noise)][-1:]:
                 reason = refused.reason if isinstance(refused, Rejected) else refused.fault.value
-                print(f"last rejected frame: {refused.wire!r}: {reason}")  # noqa: T201
+                print(f"last rejected frame: {written(refused.wire)}: {reason}")  # noqa: T201
+            if isinstance(self.command, dcon.Command) and Protocol.MODBUS_RTU in self.profile.model.protocols:
+                print("M-7000 modules speak Modbus RTU, unless they were set to DCON: try --modbus")  # noqa: T201
             return 1
         try:
             readings = self._readings(result.outcome.response)
