@@ -349,7 +349,7 @@ def test_ctrl_c_ends_a_process_that_waits_for_its_input() -> None:
         assert started.stderr
         errors = started.stderr.read()
 
-    assert (code, errors) == (0, "")
+    assert (code, errors) == (130, "")
 
 
 def test_input_is_for_commands_or_for_keys(run: Run) -> None:
@@ -364,3 +364,20 @@ def test_a_socket_that_cannot_be_made_is_wrong_usage(run: Run, tmp_path: Path) -
 
     assert told.code == 2
     assert told.err == f"i7000: {tmp_path} exists and is not a socket: give another path, or -\n"
+
+
+def test_quit_from_a_socket_ends_a_process_without_a_word(tmp_path: Path) -> None:
+    path = tmp_path / "bus.sock"
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with process("--model", "I-7018", "--tcp", "0", "--control", str(path), **pipes) as started:
+        until(path.is_socket)
+        with socket.socket(socket.AF_UNIX) as program:
+            program.settimeout(ENOUGH)
+            program.connect(str(path))
+            program.sendall(b"quit\n")
+            answer = program.recv(100)
+            code = started.wait(ENOUGH)
+        assert started.stderr
+        errors = started.stderr.read()
+
+    assert (answer, code, errors) == (b"ok\n", 0, b"")

@@ -77,7 +77,19 @@ def test_what_only_one_has_is_reported_and_does_not_count(run: Run, tmp_path: Pa
     told = run("diff", written(tmp_path, "a.json", OVEN), written(tmp_path, "b.json", more))
 
     assert (told.code, told.out) == (0, "")
-    assert told.err == "i7000: not compared, as only one of them has it: channel_mask\ni7000: no differences\n"
+    assert (
+        told.err
+        == "i7000: not compared, as only one of them has it: channel_mask\ni7000: no differences in what both have\n"
+    )
+
+
+def test_another_model_is_a_difference(run: Run, tmp_path: Path) -> None:
+    one, other = (Snapshot(model, settings={"filter": "reject_50_hz"}) for model in (Model.I_7018, Model.I_7018R))
+
+    told = run("diff", written(tmp_path, "a.json", one), written(tmp_path, "b.json", other))
+
+    assert (told.code, told.out) == (1, "")
+    assert "the model differs: I-7018 and I-7018R" in told.err
 
 
 def test_what_could_not_be_read_counts(run: Run, tmp_path: Path) -> None:

@@ -90,7 +90,7 @@ def test_lines_that_nobody_reads_hold_up_nothing() -> None:
             code, took = ended(started)
         errors = started.stderr.read()
 
-    assert code == 0
+    assert code == 130
     assert took < PROMPTLY
     assert errors.startswith(b"i7000: ")
     assert errors.endswith(b" lines not shown\n")
@@ -110,7 +110,7 @@ def test_a_second_signal_does_not_cut_the_end_short(again: signal.Signals) -> No
             code = started.wait(ENOUGH)
         errors = started.stderr.read()
 
-    assert code == 0
+    assert code == 130
     assert errors.endswith(b" lines not shown\n")
 
 
@@ -153,7 +153,7 @@ def test_lines_that_were_dropped_are_counted_where_they_would_have_been() -> Non
     (missed,) = [number for number, line in enumerate(lines) if line.endswith(b" lines not shown")]
     assert missed + int(lines[missed].split()[0]) == 2 * 5_000
     assert b"ReadModuleName" in lines[missed + 1]
-    assert (code, errors) == (0, b"")
+    assert (code, errors) == (130, b"")
 
 
 def test_a_reader_that_is_gone_holds_up_nothing() -> None:
@@ -166,7 +166,7 @@ def test_a_reader_that_is_gone_holds_up_nothing() -> None:
             code, _ = ended(started)
         errors = started.stderr.read()
 
-    assert (code, errors) == (0, b"")
+    assert (code, errors) == (130, b"")
 
 
 # --- a terminal -------------------------------------------------------------------------------------------------------
@@ -199,7 +199,7 @@ def test_a_terminal_that_is_stopped_holds_up_nothing_and_gets_its_screen_back(vi
         code, took = ended(started)
         after = read_all(person)
 
-    assert (code, held) == (0, b"")
+    assert (code, held) == (130, b"")
     assert took < PROMPTLY
     assert before.count(b"\x1b[?1049h") == after.count(b"\x1b[?1049l") == (view == "live")
     assert before.count(b"\x1b[?25l") == after.count(b"\x1b[?25h") == (view == "live")
@@ -220,7 +220,7 @@ def test_a_terminal_that_goes_on_shows_what_is_there_then() -> None:
 
     assert b"ReadModuleName" in shown
     assert b"not shown" not in shown
-    assert code == 0
+    assert code == 130
 
 
 def test_a_terminal_that_nobody_reads_holds_up_nothing() -> None:
@@ -234,7 +234,7 @@ def test_a_terminal_that_nobody_reads_holds_up_nothing() -> None:
             sleep(0.1)
         code, took = ended(started)
 
-    assert code == 0
+    assert code == 130
     assert took < PROMPTLY
 
 
@@ -263,7 +263,7 @@ def test_without_file_descriptors_connections_wait_and_one_line_says_so(scheme: 
         code, took = ended(started)
         errors = started.stderr.read()
 
-    assert (code, errors) == (0, b"i7000: connections are not accepted for 1 s: Too many open files\n")
+    assert (code, errors) == (130, b"i7000: connections are not accepted for 1 s: Too many open files\n")
     assert took < PROMPTLY
 
 
@@ -289,5 +289,5 @@ def test_the_end_comes_however_full_the_pipe_of_errors_is() -> None:
     os.close(reading)
     os.close(writing)
 
-    assert code == 0
+    assert code == 130
     assert took < PROMPTLY

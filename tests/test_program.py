@@ -199,8 +199,11 @@ WITHOUT_SIGNALS = (
 PIPES: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
+ENDINGS = [(signal.SIGINT, INTERRUPTED), (signal.SIGTERM, 0), (signal.SIGHUP, 0)]
+
+
+@pytest.mark.parametrize(("ending", "code"), ENDINGS)
+def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals, code: int) -> None:
     with process("--model", KELVIN, *INPUTS, **PIPES) as started:
         assert started.stdout
         path = started.stdout.readline().strip()
@@ -210,12 +213,12 @@ def test_a_script_reads_the_path_and_ends_it(ending: signal.Signals) -> None:
         rest, errors = started.communicate(timeout=ENOUGH)
 
     assert answers == [SAID]
-    assert (started.returncode, rest, errors) == (0, "", "")
+    assert (started.returncode, rest, errors) == (code, "", "")
     assert not Path(path).exists()
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
-def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals) -> None:
+@pytest.mark.parametrize(("ending", "code"), ENDINGS[:2])
+def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals, code: int) -> None:
     with process("--model", KELVIN, **PIPES) as started:
         assert started.stdout
         started.stdout.readline()
@@ -223,7 +226,7 @@ def test_a_script_may_end_it_as_soon_as_it_reads_the_path(ending: signal.Signals
         started.send_signal(ending)
         rest, errors = started.communicate(timeout=ENOUGH)
 
-    assert (started.returncode, rest, errors) == (0, "", "")
+    assert (started.returncode, rest, errors) == (code, "", "")
 
 
 def test_where_no_signals_can_be_handled_ctrl_c_ends_it_too() -> None:

@@ -144,7 +144,8 @@ async def listening(control: Control, path: Path) -> AsyncIterator[None]:
             return
         connections.add(task)
         try:
-            await _serve(control, reader, writer)
+            with suppress(asyncio.CancelledError):  # which asyncio would print
+                await _serve(control, reader, writer)
         finally:
             connections.discard(task)
             writer.close()

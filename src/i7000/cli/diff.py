@@ -81,6 +81,7 @@ class Compared:
     """Settings that only one of them has."""
     notes: tuple[str, ...] = ()
     """What else differs."""
+    of_other_models: bool = False
 
 
 def compare(one: Snapshot, other: Snapshot) -> Compared:
@@ -104,6 +105,7 @@ def compare(one: Snapshot, other: Snapshot) -> Compared:
         tuple(unread.items()),
         tuple(name for name in single if name not in unread),
         tuple(f"the {name} differs: {first} and {second}" for name, first, second in about if first != second),
+        one.model is not other.model,
     )
 
 
@@ -122,7 +124,7 @@ def _report(compared: Compared, model: Model, heads: tuple[str, str], printer: P
         printer.note(f"not compared, as only one of them has it: {names_words(compared.alone)}")
     for words in unread_words(compared.unread):
         printer.error(words)
-    if compared.changes or compared.unread:
+    if compared.changes or compared.unread or compared.of_other_models:
         return 1
-    printer.note("no differences")
+    printer.note("no differences in what both have" if compared.alone else "no differences")
     return 0

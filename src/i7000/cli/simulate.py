@@ -101,8 +101,8 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     1024 pieces, or 65536 bytes, of late responses. Output that nobody reads is dropped and counted:
     `n lines not shown`.
 
-    Exit code: 0 after Ctrl-C, SIGTERM or SIGHUP; 2 for wrong usage, a file that is damaged or cannot be written, or
-    output that could not be written during the simulation; 130 for Ctrl-C before the simulation starts.
+    Exit code: 0 after `q`, `quit`, SIGTERM or SIGHUP; 2 for wrong usage, a file that is damaged or cannot be written,
+    or output that could not be written during the simulation; 130 after Ctrl-C.
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
     from i7000.cli.faults import read_faults  # noqa: PLC0415

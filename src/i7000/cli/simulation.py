@@ -4,6 +4,7 @@ Laws: what only some options need is imported when one of them is used.
 """
 
 import asyncio
+import signal
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -33,7 +34,7 @@ from i7000.settings import Protocol
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.simulator import Simulated, Simulator
-from i7000_cli import FAILED
+from i7000_cli import FAILED, INTERRUPTED
 
 __all__ = ["Simulation", "held", "read_modules", "run"]
 
@@ -114,15 +115,18 @@ def run(simulated: Simulation, printer: Printer) -> int:
     """
     with handlers_kept(), never_held_up(printer, simulated.view) as out:
         try:
-            asyncio.run(_run(simulated, printer, out))
+            came = asyncio.run(_run(simulated, printer, out))
         except I7000Error as error:
             raise UsageError(error) from None
-    return FAILED if out.failed else 0
+    if out.failed:
+        return FAILED
+    return INTERRUPTED if signal.SIGINT in came else 0
 
 
-async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
+async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> set[int]:
+    """Return the signals that ended the simulation."""
     simulator = Simulator(simulated.modules, faults=simulated.faults, seed=simulated.seed, report=printer.error)
-    with ended_by_signals(simulator):
+    with ended_by_signals(simulator) as came:
         if simulated.memory is not None:
             from i7000.simulator.memory import save  # noqa: PLC0415
 
@@ -148,6 +152,7 @@ async def _run(simulated: Simulation, printer: Printer, out: Outlet) -> None:
             elif simulated.control is not None:
                 await opened.enter_async_context(listening(control, Path(simulated.control)))
             await simulator.run()
+    return came
 
 
 def _show_live(
