@@ -24,7 +24,7 @@ from i7000.simulator import Faults, Fixed, Simulator, Sine
 from tests.simulation import KELVIN, free_port, process, simulated, talk
 from tests.simulator.running import I_7018, module
 from tests.terminal import Run
-from tests.waiting import ENOUGH
+from tests.waiting import ENOUGH, until
 
 MODULES = (I_7018, module(Model.I_7017, address=0x1F))
 
