@@ -31,7 +31,8 @@ from tests.each import each
 
 NUMBERS = (None, True, -1, 300, 10**400, 1.5, float("nan"), float("inf"))
 OTHERS: tuple[Any, ...] = (
-    "text", "", (), (None,), ([],), ((1, b"$012"),), ("$012",), [], {}, {1: 2}, set(), frozenset(), Model, Profile, Profile.has,
+    "text", "", (), (None,), ([],), ((1, b"$012"),), ("$012",), [], {}, {1: 2}, set(), frozenset(), Model, Profile,
+    Profile.has,
     Model.I_7018, Unit.VOLT, dcon.ReadConfiguration, dcon.ReadConfiguration(0x01), modbus.ReadCoils(0x01, 0, 1),
     Reading(1.0, Unit.VOLT), range(3), range(0), dcon,
 )  # fmt: skip
