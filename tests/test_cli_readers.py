@@ -117,6 +117,14 @@ def test_the_end_of_a_stream_ends_a_frame_too() -> None:
     assert read.text == "$01"
 
 
+def test_the_line_feeds_of_a_stream_are_shown_escaped() -> None:
+    reads = list(of_stream([b"$012\r\n!010F0600\r\n\r"], NOTHING, None))
+
+    assert [(read.line, read.text) for read in reads] == [
+        (1, "$012"), (2, r"\n"), (3, "!010F0600"), (4, r"\n"), (5, r"\r"),
+    ]  # fmt: skip
+
+
 # --- times ------------------------------------------------------------------------------------------------------------
 
 

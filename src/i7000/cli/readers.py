@@ -237,11 +237,15 @@ def _is_apart(before: Packet, packet: Packet) -> bool:
     return turned or late
 
 
+_ESCAPES = {code: f"\\x{code:02x}" for code in (*range(0x20), 0x7F)} | {9: r"\t", 10: r"\n", 13: r"\r"}
+
+
 def _frame(heard: Heard, line: int, packet: Packet | None, late: str | None = None) -> Read:
     """Return what was heard; `late` is the packet before, if the time of that is later."""
     wire = heard.wire
     text = wire.hex(" ").upper()
     if heard.protocol is Protocol.DCON:
-        text = wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+        shown = wire[:-1] if len(wire) > 1 and wire[-1:] == b"\r" else wire
+        text = shown.decode("ascii", "backslashreplace").translate(_ESCAPES)
     heard = heard if late is None else _noted(heard, late)
     return Read(heard.place.number, line, line, text, packet and _utc(packet), heard)
