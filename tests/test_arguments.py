@@ -31,7 +31,8 @@ from tests.each import each
 
 NUMBERS = (None, True, -1, 300, 10**400, 1.5, float("nan"), float("inf"))
 OTHERS: tuple[Any, ...] = (
-    "text", "", (), (None,), ([],), [], {}, {1: 2}, set(), frozenset(), Model, Profile, Profile.has,
+    "text", "", (), (None,), ([],), ((1, b"$012"),), ("$012",), [], {}, {1: 2}, set(), frozenset(), Model, Profile,
+    Profile.has,
     Model.I_7018, Unit.VOLT, dcon.ReadConfiguration, dcon.ReadConfiguration(0x01), modbus.ReadCoils(0x01, 0, 1),
     Reading(1.0, Unit.VOLT), range(3), range(0), dcon,
 )  # fmt: skip
@@ -67,10 +68,12 @@ def alike(one: Any, other: Any) -> bool:
     return bool(one == other) or repr(one) == repr(other)
 
 
-def outcome(function: Any, value: object) -> object:
-    """What a call gives, if it can be hashed, or the error that refuses its argument."""
+def outcome(function: Any, value: object, *, driven: bool) -> object:
+    """What a call gives, if it can be hashed, or the error that refuses its argument; `driven`: it is a procedure."""
     try:
         found = function(value)
+        if isinstance(found, Iterator) and not driven:
+            return tuple(found)
     except I7000Error as error:
         return str(error)
     return tuple(found.items()) if isinstance(found, dict) else found
@@ -80,7 +83,8 @@ def outcome(function: Any, value: object) -> object:
 def test_an_argument_of_any_type_is_taken_or_refused_with_an_error_of_ours(call: Call) -> None:
     for _, function in call.arguments():
         for value in (*NUMBERS, *OTHERS, *LIKE_BYTES, object(), [None], iter(())):
-            assert isinstance(hash(outcome(function, value)), int), value
+            found = outcome(function, value, driven=call.name.startswith("procedures."))
+            assert isinstance(hash(found), int), value
 
 
 @each_call

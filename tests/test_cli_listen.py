@@ -117,7 +117,7 @@ def test_only_what_is_wanted_is_shown(
 def test_a_silence_completes_a_frame(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     told = listened(run, monkeypatch, (0.5, b"$01"), (2.0, b"2\r"), options=("--json",))
 
-    assert [record["wire"] for record in told.records] == ["243031", "32", "0d"]
+    assert [record["wire"] for record in told.records] == ["243031", "320d"]
     assert told.code == 0
 
 

@@ -117,6 +117,50 @@ def test_the_end_of_a_stream_ends_a_frame_too() -> None:
     assert read.text == "$01"
 
 
+def test_the_line_feeds_of_a_stream_are_shown_escaped() -> None:
+    reads = list(of_stream([b"$012\r\n!010F0600\r\n\r"], NOTHING, None))
+
+    assert [(read.line, read.text) for read in reads] == [
+        (1, "$012"), (2, r"\n"), (3, "!010F0600"), (4, r"\n"), (5, r"\r"),
+    ]  # fmt: skip
+
+
+# --- times ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "is_before"),
+    [
+        ("12:00:05", "12:00:01", True),
+        ("12:00:05.250", "12:00:05,249", True),
+        ("12:00:05", "12:00:05", False),
+        ("9:59:59", "10:00:00", False),
+        ("23:59:59", "00:00:01", False),
+        ("2026-11-30 12:00:05", "2026-11-30 12:00:01", True),
+        ("2026-11-30T23:00:00Z", "2026-11-29T23:30:00Z", True),
+        ("2026-11-30 23:59:59", "2026-12-01 00:00:01", False),
+        ("12:00:05", "2026-11-30 12:00:01", False),
+        ("2026-11-30T12:00:05+01:00", "2026-11-30T11:00:06Z", False),
+    ],
+)
+def test_a_time_before_that_of_the_line_before_is_noted(first: str, second: str, *, is_before: bool) -> None:
+    lines = [f"{first} $012", "the port is open", f"{second} !010F0600"]
+    *_, last = of_lines(enumerate(lines, 1), NOTHING, None)
+
+    assert last.heard is not None
+    assert ("its time is before that of line 1" in last.heard.notes) is is_before
+    assert last.understood
+
+
+def test_a_time_of_a_capture_before_that_of_the_packet_before_is_noted() -> None:
+    first, second = captured(packet(REQUEST, OUT), packet(RESPONSE, IN, ticks=1_700_000_000_400_000))
+
+    assert first.heard is not None
+    assert second.heard is not None
+    assert "its time is before that of packet 1" not in first.heard.notes
+    assert "its time is before that of packet 1" in second.heard.notes
+
+
 # --- capture files ----------------------------------------------------------------------------------------------------
 
 

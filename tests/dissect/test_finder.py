@@ -371,3 +371,33 @@ def test_a_number_behind_a_frame_is_no_frame(after: str) -> None:
 def test_a_command_before_its_response_is_no_counter() -> None:
     assert wires("#01 >+0025.1") == wires("#01 RX: 3E 2B 30 30 32 35 2E 31 0D") == [b"#01\r", b">+0025.1\r"]
     assert wires("#17 is polled") == [b"#17\r"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r'"\u{1}\u{4}\0\0\0\u{1}1\u{ca}"',
+        "".join(f"x{byte:02x}" for byte in REQUEST),
+        "".join(f"%{byte:02X}" for byte in REQUEST),
+        "frame=%01%04%00%00%00%011%CA&x=1",
+        f"#12 {REQUEST.hex(' ')}",
+    ],
+)
+def test_a_frame_in_the_spelling_of_rust_of_urls_or_of_x_is_found_alone(text: str) -> None:
+    assert wires(text) == [REQUEST]
+
+
+@pytest.mark.parametrize("end", [r"\13", r"\13\10"])
+def test_a_carriage_return_can_be_escaped_in_decimal(end: str) -> None:
+    assert [(it.kind, it.wire) for it in find(f"$012{end}")] == [(Kind.DCON, b"$012\r")]
+
+
+def test_a_counter_before_a_damaged_frame_is_no_frame() -> None:
+    (found,) = find("#12 01 04 00 00 00 01 31 CB")
+
+    assert (found.kind, found.wire) == (Kind.DAMAGED, REQUEST[:-1] + b"\xcb")
+
+
+@pytest.mark.parametrize("text", ["x86 and x64", "x10x", "0x01x04", "max12x34"])
+def test_words_with_an_x_are_no_bytes(text: str) -> None:
+    assert find(text) == ()

@@ -1,10 +1,12 @@
 """Frames that are cut over several lines of a log are put together, and no line is lost."""
 
+from typing import Any
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from i7000 import modbus
+from i7000 import ArgumentError, modbus
 from i7000.dissect.found import Kind
 from i7000.dissect.transcript import Piece, pieces
 from tests.dissect.frames import DCON, MODBUS, REQUEST, RESPONSE
@@ -157,3 +159,12 @@ def test_the_last_byte_of_a_long_dump_belongs_to_the_frame_whatever_its_offset(n
     wire = modbus.seal(bytes((1, 4, 156, *range(156))))
 
     assert [it.wire for it in pieces_of(*DUMPS[name](wire)) if it.kind] == [wire]
+
+
+@pytest.mark.parametrize("line", [(1, b"$012"), (None, "$012"), (True, "$012"), (1, "$012", 2), "$0", 1, [1, "$012"]])
+def test_a_line_without_its_number_is_refused_when_it_is_reached(line: Any) -> None:
+    found = pieces([(1, "$012"), line])
+
+    assert next(found).wire == b"$012\r"
+    with pytest.raises(ArgumentError, match="lines must be tuples of a number and a line"):
+        next(found)

@@ -23,6 +23,8 @@ __all__ = ["Missing", "Read", "of_capture", "of_lines", "of_recording", "of_stre
 _STAMP = re.compile(
     r"(?<![\w:.])(?:\d{4}[-/.]\d\d[-/.]\d\d[T ])?\d\d?:\d\d:\d\d(?:[.,]\d{1,9})?(?:Z|[-+]\d\d:?\d\d)?(?![\w:])"
 )
+_CLOCK = re.compile(r"(\d\d?):(\d\d):(\d\d)(?:[.,](\d+))?")
+_HALF_A_DAY = 12 * 3600
 _SILENCE = 0.5
 """Seconds between two packets after which what is unfinished has ended."""
 
@@ -62,6 +64,7 @@ class Read(NamedTuple):
 def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
     """Read a log."""
     line = Line(knowledge, protocol)
+    before: tuple[str, str] | None = None
     for number, piece in enumerate(pieces(lines, protocol), 1):
         start, last, text, kind, wire, same_as = piece
         heard, missing, note = None, None, None
@@ -75,7 +78,32 @@ def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: P
             again = asked is not None and asked.wire == wire  # Only the words beside it show what it is.
             kind_of = _protocol_of(piece) if protocol is None else protocol
             line, heard = hear_frame(line, wire, kind_of, place, sent=sent(text) if again else None)
-        yield Read(number, start, last, _shown(text), _time(text), heard, missing, note)
+        time = _time(text)
+        if time is not None:
+            if heard is not None and before is not None and _is_before(time, before[0]):
+                heard = _noted(heard, before[1])
+            before = time, f"line {start}"
+        yield Read(number, start, last, _shown(text), time, heard, missing, note)
+
+
+def _noted(heard: Heard, where: str) -> Heard:
+    return evolve(heard, notes=(*heard.notes, f"its time is before that of {where}"))
+
+
+def _is_before(time: str, other: str) -> bool:
+    """Return whether a time is certainly before another; the time of a day without its date can be of the next day."""
+    (date, zone, seconds), (other_date, other_zone, other_seconds) = map(_read_time, (time, other))
+    if zone != other_zone or bool(date) != bool(other_date):
+        return False
+    if not date:
+        return 0 < other_seconds - seconds < _HALF_A_DAY
+    return (date, seconds) < (other_date, other_seconds)
+
+
+def _read_time(time: str) -> tuple[str, str, float]:
+    """Return the date of a time, its zone, and its seconds."""
+    date, hours, minutes, seconds, fraction, zone = _CLOCK.split(time, 1)
+    return date, zone, int(hours) * 3600 + int(minutes) * 60 + float(f"{seconds}.{fraction or 0}")
 
 
 def _protocol_of(piece: Piece) -> Protocol:
@@ -150,10 +178,11 @@ def _of_packets(
 ) -> Iterator[Read]:
     line = Line(knowledge, protocol)
     before: Packet | None = None
+    late: str | None = None
     for packet in found:
         if before is not None and (isinstance(packet, Damage) or _is_apart(before, packet)):
             line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
-            yield from (_frame(it, before.number, before) for it in heard)
+            yield from (_frame(it, before.number, before, late) for it in heard)
         if isinstance(packet, Damage):
             line = evolve(line, count=line.count + 1)
             at = before.number if before else 0
@@ -172,11 +201,17 @@ def _of_packets(
             line = evolve(line, count=line.count + 1)
             yield Read(line.count, packet.number, packet.number, "", _utc(packet), None, Missing.DAMAGE, note)
         line, heard = hear(line, packet.wire, f"{word} {packet.number}", sent=packet.outbound)
-        yield from (_frame(it, packet.number, packet) for it in heard)
+        late = f"{word} {before.number}" if before and _is_late(before, packet) else None
+        yield from (_frame(it, packet.number, packet, late) for it in heard)
         before = packet
     if before is not None:
         line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
-        yield from (_frame(it, before.number, before) for it in heard)
+        yield from (_frame(it, before.number, before, late) for it in heard)
+
+
+def _is_late(before: Packet, packet: Packet) -> bool:
+    """Return whether the times of two packets go back."""
+    return before.time is not None and packet.time is not None and packet.time < before.time
 
 
 def _lost(packet: Packet) -> Iterator[str]:
@@ -202,9 +237,15 @@ def _is_apart(before: Packet, packet: Packet) -> bool:
     return turned or late
 
 
-def _frame(heard: Heard, line: int, packet: Packet | None) -> Read:
+_ESCAPES = {code: f"\\x{code:02x}" for code in (*range(0x20), 0x7F)} | {9: r"\t", 10: r"\n", 13: r"\r"}
+
+
+def _frame(heard: Heard, line: int, packet: Packet | None, late: str | None = None) -> Read:
+    """Return what was heard; `late` is the packet before, if the time of that is later."""
     wire = heard.wire
     text = wire.hex(" ").upper()
     if heard.protocol is Protocol.DCON:
-        text = wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+        shown = wire[:-1] if len(wire) > 1 and wire[-1:] == b"\r" else wire
+        text = shown.decode("ascii", "backslashreplace").translate(_ESCAPES)
+    heard = heard if late is None else _noted(heard, late)
     return Read(heard.place.number, line, line, text, packet and _utc(packet), heard)

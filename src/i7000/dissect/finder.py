@@ -88,6 +88,10 @@ def read_line(text: str) -> Line:
     if left_over:
         text = text[: left_over.start()]
     crossed = without_numbers(text)
+    counted = _COUNTER.match(text)
+    if counted:
+        number = len(counted[0].rstrip())
+        crossed = "z" * number + crossed[number:]
     runs = [_without_column(text, run) for run in hex_runs(crossed)]
     wires = [wire_of(run) for run in runs]
     candidates = [found for run in runs for found in in_run(text, run)]
@@ -100,7 +104,9 @@ def read_line(text: str) -> Line:
             candidates.append(found)
     damaged = [found for found in candidates if found.kind is Kind.DAMAGED and _is_free(taken, found)]
     good = [found for found in candidates if found.kind is not Kind.DAMAGED]
-    counter = next((found for found in good if _may_be_a_counter(text, found)), None)
+    counter = next((found for found in good if counted and found.end <= counted.end()), None)
+    if good == [counter] and any(len(found.wire) > SHORTEST_RUN for found in damaged):
+        good = []
     if not good or good == [counter]:
         crossed = _without_hex(crossed, runs)
         known = set(wires)
@@ -146,12 +152,7 @@ def _is_number(text: str, found: Found, beside: list[Found]) -> bool:
 
 
 _COUNTER = pattern(r"\s*#\d\d\s+(?![-=>|:,;!?]|<[-=]|[A-Za-z]*:)")
-
-
-def _may_be_a_counter(text: str, found: Found) -> bool:
-    """Return whether a command is the number of the line: nothing stands before it, and no response behind it."""
-    counter = _COUNTER.match(text)
-    return counter is not None and counter.start() <= found.start < found.end <= counter.end()
+"""The number of a line: nothing stands before it, and no response behind it."""
 
 
 _LETTER = pattern("[A-Fa-f]")

@@ -80,9 +80,11 @@ def without_numbers(text: str) -> str:
 
 
 _HEX = pattern(
-    r"[0-9A-Fa-f\\&](?:(?<=\\)(?:[xX]\{?|u00)([0-9A-Fa-f]{2})\}?"
+    r"[0-9A-Fa-f\\&xX](?:(?<=\\)(?:[xX]\{?|u00)([0-9A-Fa-f]{2})\}?"
     r"|(?<![0-9A-Za-z].)(?:(?<=0)[xX]|(?<=&)[hH]|(?<=1)6#)((?:[0-9A-Fa-f]{2})+)[hHuU]?(?![0-9A-Za-z])"
     r"|(?<![0-9A-Za-z].)(?<=0)[xX]([0-9A-Fa-f])[uU]?(?![0-9A-Za-z])"
+    r"|(?<=[xX])(?:(?<![0-9A-Za-z\\].)(?=..[xX][0-9A-Fa-f]{2})|(?<=[xX][0-9A-Fa-f]{2}.))([0-9A-Fa-f]{2})"
+    r"(?=[xX][0-9A-Fa-f]{2}|(?![0-9A-Za-z]))"
     r"|(?<![0-9A-Za-z].)(?<=[0-9A-Fa-f])[0-9A-Fa-f](?:[0-9A-Fa-f]{2})*[hHuU]?(?![0-9A-Za-z]))",
     re.DOTALL,
 )
@@ -160,8 +162,14 @@ _LETTERS = {
     "a": 7, "b": 8, "t": 9, "n": 10, "v": 11, "f": 12, "r": 13, "e": 27, "s": 32,
     "\\": 0x5C, "'": 0x27, '"': 0x22,
 }  # fmt: skip
-_C = pattern(r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u00([0-9A-Fa-f]{2})|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)")
+_C = pattern(
+    r"(?s)\\x([0-9A-Fa-f]{1,2})|\\u(?:00(?=[0-9A-Fa-f]{2})|\{(?=[0-9A-Fa-f]{1,2}\}))([0-9A-Fa-f]{1,2})"
+    r"(?:(?<=\{.)\}|(?<=\{..)\})?|\\([0-7]{1,3})|\\([abtnvfres\\'\"])|(.)"
+)
 _LABVIEW = pattern(r"(?s)\\x([0-9A-Fa-f]{2})|\\([0-9A-F]{2})|(?!)()|\\([btnfrs\\])|(.)")
+_PERCENT = pattern(r"%[0-9A-Fa-f]{2}(?:%[0-9A-Fa-f]{2}|[0-9A-Za-z_.~*+-])+")
+"""Bytes as URLs write them: letters and digits stand for themselves."""
+_ESCAPED = pattern(r"(?s)%([0-9A-Fa-f]{2})|(?!)()()()|(.)")
 _QUOTES = pattern(r"""(?s)\\.|["'`]""")
 _BARE = pattern(r"\\.*\\[^\s\"'`\])}>,;]*")
 """Characters from the first escape to the end of the last."""
@@ -173,6 +181,9 @@ def literal_runs(text: str) -> Iterator[tuple[Run, bool]]:
     >>> [bytes(byte.value for byte in run) for run, usual in literal_runs(r'write(3, "\1\4\0b", 4) = 4') if usual]
     [b'\x01\x04\x00b']
     """
+    if "%" in text:
+        for found in _PERCENT.finditer(text):
+            yield [_character(one, 16) for one in _ESCAPED.finditer(text, *found.span())], False
     if "\\" not in text:
         return
     spans = [(start, end) for start, end in _quoted(text) if text.find("\\", start, end) >= 0]
@@ -218,13 +229,13 @@ _BEHIND = r"""(?: (?<=[0-9A-Za-z*]) | (?<=[0-9A-Z]["']) )"""
 """Where ``#13`` is a carriage return: elsewhere it is a command to module 13h."""
 _ENDS = rf"""
     (?: (?<=\S) [ ] )? [(<\[{{] (?: CR | cr | Cr ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[dD] [>\]}})] | \\x0[dD] | \\u000[dD]
-    | \\015 | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]); | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d
-    | \u21b5 | \$(?:0D|[Rr]) (?![0-9A-Za-z]) | \r
+    | \\015 | \\13 (?!\d) | \\0D | \\r | \^M | {_BEHIND} \#13 (?!\d) | &\#(?:13|[xX]0?[dD]);
+    | %0[dD] (?! [0-9A-F]{{8}} ) | \u240d | \u21b5 | \$(?:0D|[Rr]) (?![0-9A-Za-z]) | \r
 """
 _LINE_FEEDS = rf"""
-    [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012 | \\0A
-    | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]); | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a
-    | \$[LlNn] (?![0-9A-Za-z]) | \n
+    [(<\[{{] (?: LF | lf | Lf | NL ) [)>\]}}] | [<\[{{(] (?:0x)? 0?[aA] [>\]}})] | \\x0[aA] | \\u000[aA] | \\012
+    | \\10 (?!\d) | \\0A | \\n | \^J | {_BEHIND} \#10 (?!\d) | &\#(?:10|[xX]0?[aA]);
+    | %0[aA] (?! [0-9A-F]{{8}} ) | \u240a | \$[LlNn] (?![0-9A-Za-z]) | \n
 """
 _CHARACTER = rf"""
     (?P<end>{_ENDS}) | (?P<feed>{_LINE_FEEDS})

@@ -29,6 +29,7 @@ _CLOSING = re.compile(r"[\])}>\"'`,;hH]*")
 """What closes the spelling of a byte or of a frame."""
 
 
+_NUMBERED = (int, str)
 _WORD = re.compile(r"[^\W\d_]+")
 _FEWEST_BESIDE_WORDS = 3
 """Bytes of a part of a frame that can stand beside words which the other parts do not have."""
@@ -69,6 +70,7 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
 
     Special: `protocol` is the one that is expected, if it is known: a line that can be meant for a frame of it is
         damaged, and not a line without a frame.
+    Errors: `ArgumentError`, where the iterator comes to it, for what is not a tuple of an int and a str.
 
     >>> [(piece.number, piece.last, piece.wire.hex()) for piece in pieces([(1, "01 04 00 00"), (2, "00 01 31 ca")])]
     [(1, 2, '01040000000131ca')]
@@ -84,7 +86,10 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
 def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iterator[Piece]:
     marked = _Repeats().marked
     parts: list[_Part] = []
-    for number, line in lines:
+    for numbered in lines:
+        if not isinstance(numbered, tuple) or tuple(map(type, numbered)) != _NUMBERED:
+            raise ArgumentError("lines", numbered, "tuples of a number and a line (int and str)")
+        number, line = numbered
         text = without_end(line) if line[-1:] == "\n" else line
         clean = _COLOUR.sub(_blanks, text) if "\x1b" in text else text
         plain = find_plain(clean)
