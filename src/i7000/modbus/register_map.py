@@ -32,7 +32,7 @@ from i7000.modbus.standard import (
 from i7000.profile import Profile
 from i7000.settings import is_int
 
-__all__ = ["READERS", "Items", "Plan", "ReadItems", "RegisterMap"]
+__all__ = ["Items", "Plan", "ReadItems", "RegisterMap"]
 
 Items = Coils | DiscreteInputs | HoldingRegisters | InputRegisters
 """The responses that contain coils, inputs or registers."""
