@@ -808,3 +808,21 @@ def test_every_number_of_32_bits_has_a_word_order() -> None:
 
 def test_only_reading_the_reset_status_changes_it() -> None:
     assert [row.name for row in LOGGER if row.ends_when_read] == ["reset_status"]
+
+
+@pytest.mark.parametrize(
+    ("message", "area", "first"),
+    [
+        (modbus.ReadCoils(1, 5, 2), modbus.Area.COIL, 5),
+        (modbus.ReadDiscreteInputs(1, 6, 2), modbus.Area.DISCRETE_INPUT, 6),
+        (modbus.WriteSingleCoil(1, 7, True), modbus.Area.COIL, 7),
+        (modbus.SingleRegisterWritten(1, 8, 100), modbus.Area.HOLDING_REGISTER, 8),
+        (modbus.MultipleCoilsWritten(1, 9, 2), modbus.Area.COIL, 9),
+        (modbus.InputRegisters(1, (1, 2)), modbus.Area.INPUT_REGISTER, None),
+        (modbus.ReadModuleName(1), None, None),
+    ],
+)
+def test_a_message_names_the_area_and_the_first_item_that_it_is_about(
+    message: modbus.Message, area: modbus.Area | None, first: int | None
+) -> None:
+    assert (message.area, message.first_item) == (area, first)

@@ -18,19 +18,11 @@ from i7000.cli.words import UsageError, near, truth, type_code
 from i7000.message import Message
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.modbus.items import MOST_BITS
+from i7000.modbus.request import FIRST_ITEMS
 
 __all__ = ["AREAS", "NUMBER", "area_words", "is_of_registers", "is_reading", "number_note", "take_fields"]
 
-AREAS: Mapping[type[Any], Area] = {
-    modbus.ReadCoils: Area.COIL,
-    modbus.ReadDiscreteInputs: Area.DISCRETE_INPUT,
-    modbus.ReadHoldingRegisters: Area.HOLDING_REGISTER,
-    modbus.ReadInputRegisters: Area.INPUT_REGISTER,
-    modbus.WriteSingleCoil: Area.COIL,
-    modbus.WriteSingleRegister: Area.HOLDING_REGISTER,
-    modbus.WriteMultipleCoils: Area.COIL,
-    modbus.WriteMultipleRegisters: Area.HOLDING_REGISTER,
-}
+AREAS: Mapping[type[Any], Area] = {kind: kind.area for kind in modbus.REQUESTS if kind.area is not None}
 _SEVERAL: Mapping[type[Message], type[Message]] = {
     modbus.WriteSingleCoil: modbus.WriteMultipleCoils,
     modbus.WriteSingleRegister: modbus.WriteMultipleRegisters,
@@ -39,8 +31,6 @@ NUMBER = re.compile("[0134][0-9]{4}|[134][0-9]{5}")
 """A number of the manual; in other programs it may have six digits."""
 _PRINTED = 9999
 """Addresses below this one have a number of five digits in the manual."""
-_PLACES = ("start", "coil", "register")
-"""The fields that hold an address."""
 
 
 def is_of_registers(kind: type[Message]) -> bool:
@@ -62,7 +52,7 @@ def take_fields(
         Without a map, nothing is taken.
     Errors: `UsageError` for what cannot be understood, `InvalidValueError` for what the module does not have or take.
     """
-    field = next(name for name in parts_of(kind) if name in _PLACES)
+    field = next(name for name in parts_of(kind) if name in FIRST_ITEMS)
     if registers is None:
         if not _is_number(given.get(field, "")):
             raise UsageError(f"{field}: {given[field]!r} is not a number, and names of registers need --model")
@@ -95,7 +85,7 @@ def number_note(kind: type[Message], assignments: Iterable[str]) -> str | None:
     """
     for assignment in assignments if is_of_registers(kind) else ():
         field, _, text = assignment.partition("=")
-        if field in _PLACES and NUMBER.fullmatch(text) and int(text[1:]):
+        if field in FIRST_ITEMS and NUMBER.fullmatch(text) and int(text[1:]):
             return (
                 f"{assignment}: {text} looks like a number of the manual; its address in frames is {int(text[1:]) - 1}"
             )

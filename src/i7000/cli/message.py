@@ -18,11 +18,10 @@ from i7000 import (
     DataFormat,
     Filter,
     InvalidValueError,
-    LineSettings,
     Model,
     Profile,
-    ReportSettings,
     dcon,
+    describe,
     modbus,
 )
 from i7000.cli.by_register import is_of_registers, take_fields
@@ -171,9 +170,9 @@ def make(
     values = take_fields(kind, given, registers, force=force) if is_of_registers(kind) else {}
     missing = []
     for field, attribute in parts_of(kind).items():
-        part = _PARTS.get(field)
-        if part and not given.keys().isdisjoint((field, *part)):
-            values[field] = _assemble(field, part, given)
+        parts = _parts(kind, field)
+        if parts and not given.keys().isdisjoint((field, *parts)):
+            values[field] = _assemble(field, get_args(attribute.type)[0], parts, given)
         elif field in given:
             scale = scale_of(kind, field, channel=bool(values.get("channel")))
             read = _reader(get_args(attribute.type)[0]) if scale is None else partial(counts, scale=scale)
@@ -190,8 +189,9 @@ def _writing(kind: type[Message], field: str) -> str:
     values, part = get_args(parts_of(kind)[field].type)
     scale = scale_of(kind, field, channel=False)
     how: str = "with commas between" if values in _LISTS else _readable(part.allowed)
-    if field in _PARTS:
-        how = f"a number, or {' '.join(f'{name}=...' for name in _PARTS[field])}"
+    parts = _parts(kind, field)
+    if parts:
+        how = f"a number, or {' '.join(f'{name}=...' for name in parts)}"
     elif scale:
         how = f"a number, in {scale.unit}"
     elif values is bool:
@@ -205,7 +205,7 @@ def _writing(kind: type[Message], field: str) -> str:
 
 def _given(kind: type[Message], assignments: Sequence[str]) -> dict[str, str]:
     """Read ``field=value``: what is given for each field, or part of a field."""
-    known = [one for field in parts_of(kind) for one in (field, *_PARTS.get(field, ()))]
+    known = [one for field in parts_of(kind) for one in (field, *_parts(kind, field))]
     given: dict[str, str] = {}
     for assignment in assignments:
         field, equals, value = assignment.partition("=")
@@ -296,10 +296,11 @@ def _channels(text: str) -> int:
     return dcon.mask_of(found)
 
 
-_PARTS: dict[str, dict[str, Callable[[str], Any]]] = {
-    "mask": {"channels": _channels},
-    "line_settings": {"baud_rate": baud_rate, "character_format": _reader(CharacterFormat)},
-    "report_settings": {
+_Readers = dict[str, Callable[[str], Any]]
+_PARTS: dict[Callable[..., str], _Readers] = {
+    describe.mask: {"channels": _channels},
+    describe.line_settings: {"baud_rate": baud_rate, "character_format": _reader(CharacterFormat)},
+    describe.report_settings: {
         "data_format": _reader(DataFormat),
         "checksum": truth,
         "fast_mode": truth,
@@ -307,21 +308,22 @@ _PARTS: dict[str, dict[str, Callable[[str], Any]]] = {
         "reserved": integer,
     },
 }
-_BYTES: dict[str, type[LineSettings | ReportSettings]] = {
-    "line_settings": LineSettings,
-    "report_settings": ReportSettings,
-}
+"""The parts of a value that can be given by themselves, by what describes the field that has it."""
 
 
-def _assemble(field: str, part: dict[str, Callable[[str], Any]], given: dict[str, str]) -> Any:  # noqa: ANN401
+def _parts(kind: type[Message], field: str) -> _Readers:
+    """Return the parts of a field, with how each is read; empty if it has none."""
+    return _PARTS.get(get_args(parts_of(kind)[field].type)[1].describe, {})
+
+
+def _assemble(field: str, kind: Any, readers: _Readers, given: dict[str, str]) -> Any:  # noqa: ANN401 - a type
     """Take what belongs to `field` out of `given`: the whole, its parts, or the whole with parts changed."""
     whole = given.pop(field, None)
-    parts = {name: _named(name, given.pop(name), read) for name, read in part.items() if name in given}
-    if field == "mask":
+    parts = {name: _named(name, given.pop(name), read) for name, read in readers.items() if name in given}
+    if kind is int:
         if whole is None:
             return parts["channels"]
         if parts:
-            raise UsageError("mask and channels mean the same: give one of them")
+            raise UsageError(f"{field} and channels mean the same: give one of them")
         return _named(field, whole, integer)
-    kind = _BYTES[field]
     return evolve(kind() if whole is None else kind.from_byte(_named(field, whole, hex_byte)), **parts)

@@ -11,7 +11,7 @@ from itertools import groupby
 from rich.text import Text
 
 from i7000 import Noise, Profile, Protocol, Reading, Status, TypeCode, dcon, modbus
-from i7000.cli.records import wrong_words
+from i7000.cli.records import VALUES, wrong_words
 from i7000.cli.text import escaped
 from i7000.dissect import ChannelReading, Heard, Item, Knowledge, Known, Line, Meaning, hear_frame
 from i7000.dissect.stream import looks_like
@@ -24,7 +24,7 @@ INDENT = 12
 _SHOWN_BYTES = 80
 _SHOWN_REGISTERS = 32
 _SHOWN_NAMES = 6
-_ELSEWHERE = ("address", "value", "values")
+_ELSEWHERE = {"address", *VALUES}
 """Fields that are not shown by name: what the frame begins with, and what readings and registers show."""
 
 

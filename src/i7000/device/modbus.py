@@ -18,7 +18,7 @@ from i7000.device.registers import RequestError, read, write
 from i7000.device.signals import Signals
 from i7000.device.state import State
 from i7000.errors import DecodeError, EncodeError, Fault
-from i7000.modbus import Area, ExceptionCode
+from i7000.modbus import ExceptionCode
 from i7000.settings import Filter
 
 __all__ = ["step"]
@@ -89,14 +89,14 @@ def _carry_out(call: Call) -> tuple[State, modbus.Response]:
     except EncodeError:
         raise RequestError(ExceptionCode.ILLEGAL_DATA_VALUE) from None
     kind = type(request)
-    if kind in _READ:
-        area, response = _READ[kind]
+    area = request.area
+    if kind in _WRITTEN:
+        written, acknowledgement = _WRITTEN[kind](request)
+        return write(call, area, request.first_item, written), acknowledgement
+    if area is not None:
         asked = range(request.start, request.start + request.count)
         state, items = read(call, area, asked)
-        return state, response(call.address, tuple(map(bool, items)) if area.bits else items)
-    if kind in _WRITTEN:
-        area, start, written, acknowledgement = _WRITTEN[kind](request)
-        return write(call, area, start, written), acknowledgement
+        return state, request.response(call.address, tuple(map(bool, items)) if area.bits else items)
     if kind in _TOLD:
         return call.state, _TOLD[kind](call)
     return _DONE[kind](call), _acknowledgement(call)
@@ -104,30 +104,19 @@ def _carry_out(call: Call) -> tuple[State, modbus.Response]:
 
 # --- functions 01 to 10 -----------------------------------------------------------------------------------------------
 
-_READ: dict[type, tuple[Area, Callable[[int, Any], modbus.Response]]] = {
-    modbus.ReadCoils: (Area.COIL, modbus.Coils),
-    modbus.ReadDiscreteInputs: (Area.DISCRETE_INPUT, modbus.DiscreteInputs),
-    modbus.ReadHoldingRegisters: (Area.HOLDING_REGISTER, modbus.HoldingRegisters),
-    modbus.ReadInputRegisters: (Area.INPUT_REGISTER, modbus.InputRegisters),
-}
-
-_WRITTEN: dict[type, Callable[[Any], tuple[Area, int, tuple[int, ...], modbus.Response]]] = {
-    modbus.WriteSingleCoil: lambda it: (
-        Area.COIL, it.coil, (it.value,), modbus.SingleCoilWritten(it.address, it.coil, it.value),
-    ),
+_WRITTEN: dict[type, Callable[[Any], tuple[tuple[int, ...], modbus.Response]]] = {
+    modbus.WriteSingleCoil: lambda it: ((it.value,), modbus.SingleCoilWritten(it.address, it.coil, it.value)),
     modbus.WriteSingleRegister: lambda it: (
-        Area.HOLDING_REGISTER, it.register, (it.value,),
-        modbus.SingleRegisterWritten(it.address, it.register, it.value),
+        (it.value,), modbus.SingleRegisterWritten(it.address, it.register, it.value),
     ),
     modbus.WriteMultipleCoils: lambda it: (
-        Area.COIL, it.start, it.values, modbus.MultipleCoilsWritten(it.address, it.start, len(it.values)),
+        it.values, modbus.MultipleCoilsWritten(it.address, it.start, len(it.values)),
     ),
     modbus.WriteMultipleRegisters: lambda it: (
-        Area.HOLDING_REGISTER, it.start, it.values,
-        modbus.MultipleRegistersWritten(it.address, it.start, len(it.values)),
+        it.values, modbus.MultipleRegistersWritten(it.address, it.start, len(it.values)),
     ),
 }  # fmt: skip
-"""The items that each request writes, and the class of its response."""
+"""The values that each request writes, and its response."""
 
 
 # --- function 46h -----------------------------------------------------------------------------------------------------

@@ -191,9 +191,8 @@ def _crc(body: bytes) -> str:
     return modbus.seal(body)[-2:].hex(" ").upper()
 
 
-_NUMBERED = {"01": 0, "02": 10000, "03": 40000, "04": 30000, "05": 0, "06": 40000, "0F": 0, "10": 40000}
-"""Where the numbers of the manual begin, by function."""
-_NUMBERS_A_KIND = 9999
+_NUMBERS_OF_AREA = 10_000
+"""The numbers of the manual that begin with the digit of an area."""
 
 
 def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
@@ -211,9 +210,9 @@ def address_notes(address: int | None, knowledge: Knowledge) -> Iterator[str]:
 def register_notes(meaning: Meaning) -> Iterator[str]:
     """Yield a note if an address looks like a number of the manual."""
     message: Any = meaning.message  # a request
-    first = _NUMBERED.get(message.pdu[:2])
-    start = next((getattr(message, name) for name in ("start", "register", "coil") if hasattr(message, name)), None)
-    if first and start is not None and first < start <= first + _NUMBERS_A_KIND:
+    first = message.area.value * _NUMBERS_OF_AREA if message.area else 0
+    start = message.first_item
+    if first and first < start < first + _NUMBERS_OF_AREA:
         mistaken = meaning.items[0].number
         yield (
             f"{start:05} is a number of the manual: in a frame it is address {start - first - 1} (3.2); "

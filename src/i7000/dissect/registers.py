@@ -14,17 +14,6 @@ from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 
 __all__ = ["items"]
 
-_AREAS: dict[str, Area] = {
-    "01": Area.COIL,
-    "02": Area.DISCRETE_INPUT,
-    "03": Area.HOLDING_REGISTER,
-    "04": Area.INPUT_REGISTER,
-    "05": Area.COIL,
-    "06": Area.HOLDING_REGISTER,
-    "0F": Area.COIL,
-    "10": Area.HOLDING_REGISTER,
-}
-"""The area that a function reads or writes."""
 _LONG = (Kind.UINT32, Kind.RECORD)
 """Kinds of more than one word."""
 
@@ -51,13 +40,13 @@ def items(message: modbus.Message, request: modbus.Request[Any] | None, profile:
 
     Special: without its request, a response does not show which they are.
     """
-    area = _AREAS.get(message.pdu[:2])
+    area = message.area
     place = request if isinstance(message, modbus.Items) else message
-    starts = [getattr(place, name) for name in ("start", "coil", "register") if hasattr(place, name)]
-    if area is None or not starts:
+    start = None if place is None else place.first_item
+    if area is None or start is None:
         return
     values = _values(message)
-    for it in _places(profile, area, starts[0], len(values) or getattr(message, "count", 1)):
+    for it in _places(profile, area, start, len(values) or getattr(message, "count", 1)):
         if values:
             yield from _valued(profile, it, values[it.at : it.at + it.used], written=request is None)
         else:

@@ -39,12 +39,10 @@ Items = Coils | DiscreteInputs | HoldingRegisters | InputRegisters
 ReadItems = ReadCoils | ReadDiscreteInputs | ReadHoldingRegisters | ReadInputRegisters
 """The requests that read coils, inputs or registers."""
 
-_READERS: dict[Area, Any] = {
-    Area.COIL: ReadCoils,
-    Area.DISCRETE_INPUT: ReadDiscreteInputs,
-    Area.INPUT_REGISTER: ReadInputRegisters,
-    Area.HOLDING_REGISTER: ReadHoldingRegisters,
+READERS: dict[Area | None, Any] = {
+    kind.area: kind for kind in (ReadCoils, ReadDiscreteInputs, ReadInputRegisters, ReadHoldingRegisters)
 }
+"""The request that reads the items of an area."""
 _FIRST_NUMBER, _LAST_NUMBER = 10001, 99999
 
 
@@ -114,7 +112,7 @@ class RegisterMap:
             allowed = f"a range within 0..{self.profile.channels - 1}, the channels of this connecting mode"
             raise EncodeError("channels", range(first, first + count), allowed, "3.4")
         width = row.kind.width
-        request: ReadItems = _READERS[row.area](address, row.address + first * width, count * width)
+        request: ReadItems = READERS[row.area](address, row.address + first * width, count * width)
         return request
 
     def write(

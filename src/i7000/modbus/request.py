@@ -10,6 +10,7 @@ from typing import Annotated, ClassVar, TypeVar
 from i7000 import message
 from i7000.modbus.items import Address, ExceptionFunction, ResultByte, byte
 from i7000.modbus.layout import Layout
+from i7000.modbus.registers import Area
 
 __all__ = ["BROADCAST", "ExceptionCode", "ExceptionResponse", "Message", "Request", "Response", "SettingResult"]
 
@@ -18,6 +19,8 @@ BROADCAST = 0
 MODULE_SETTINGS = 0x46
 """The function code that has sub-functions."""
 EXCEPTION_BIT = 0x80
+FIRST_ITEMS = "start", "coil", "register"
+"""The fields that have the address of the first item that a message is about."""
 LAST_ADDRESS = 247
 """The highest address of a module."""
 
@@ -46,9 +49,16 @@ class Message(message.Message):
     pdu: ClassVar[str]
     layout: ClassVar[Layout] = message.CompiledOnce(Layout.compile)  # type: ignore[assignment] # until the first use
 
+    area: ClassVar[Area | None] = None
+    """The table of the coils, inputs or registers that it reads, writes or has; None for other messages."""
     _instead = "one of the messages, such as ReadInputRegisters"
 
     address: Address
+
+    @property
+    def first_item(self) -> int | None:
+        """The address of the first coil, input or register that it names; None if it names none."""
+        return next((getattr(self, name) for name in FIRST_ITEMS if hasattr(self, name)), None)
 
 
 class Response(Message, message.Response):
@@ -74,6 +84,7 @@ class Request(Message, message.Query[R]):
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
         cls.response = message.answer_of(cls)
+        cls.area = cls.response.area
         function, *rest = cls.pdu.split(" ")
         cls.function = int(function, 16)
         cls.sub_function = int(rest[0], 16) if cls.function == MODULE_SETTINGS else None

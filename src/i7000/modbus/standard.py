@@ -8,6 +8,7 @@ from i7000.availability import Availability
 from i7000.errors import EncodeError
 from i7000.message import frozen
 from i7000.modbus import items
+from i7000.modbus.registers import Area
 from i7000.modbus.request import Request, Response
 from i7000.profile import Profile
 
@@ -46,6 +47,7 @@ class Coils(Response):
     pdu = "01 bytes values:bits"
     section = "3.4"
     title = "coils"
+    area = Area.COIL
 
     values: items.Bits
 
@@ -80,6 +82,7 @@ class DiscreteInputs(Response):
     pdu = "02 bytes values:bits"
     section = "3.1"
     title = "discrete inputs"
+    area = Area.DISCRETE_INPUT
 
     values: items.Bits
 
@@ -114,6 +117,7 @@ class HoldingRegisters(Response):
     pdu = "03 bytes values:words"
     section = "3.4"
     title = "holding registers"
+    area = Area.HOLDING_REGISTER
 
     values: items.Words
 
@@ -148,6 +152,7 @@ class InputRegisters(Response):
     pdu = "04 bytes values:words"
     section = "3.2"
     title = "input registers"
+    area = Area.INPUT_REGISTER
 
     values: items.Words
 
@@ -181,6 +186,7 @@ class SingleCoilWritten(Response):
     pdu = "05 coil:2 value:2"
     section = "3.4"
     title = "coil"
+    area = Area.COIL
 
     coil: items.Word
     value: items.Coil
@@ -216,6 +222,7 @@ class SingleRegisterWritten(Response):
     pdu = "06 register:2 value:2"
     section = "3.4"
     title = "holding register"
+    area = Area.HOLDING_REGISTER
 
     register: items.Word
     value: items.Word
@@ -250,6 +257,7 @@ class MultipleCoilsWritten(Response):
     pdu = "0F start:2 count:2"
     section = "3.4"
     title = "coils"
+    area = Area.COIL
 
     start: items.Start
     count: items.WrittenBitCount
@@ -286,6 +294,7 @@ class MultipleRegistersWritten(Response):
     pdu = "10 start:2 count:2"
     section = "3.4"
     title = "holding registers"
+    area = Area.HOLDING_REGISTER
 
     start: items.Start
     count: items.WrittenWordCount

@@ -3,7 +3,6 @@
 Laws: asks only requests that read, and that change nothing in the module: the reset status (00273) is never read.
 """
 
-from collections.abc import Mapping
 from typing import Any
 
 from attrs import evolve
@@ -17,6 +16,7 @@ from i7000.host.procedures.evidence import Evidence, by_factory_type, by_types
 from i7000.host.procedures.identified import Identified, Unknown, profile_of
 from i7000.host.procedures.step import Procedure, ask
 from i7000.modbus import Access, Area, Kind, RegisterMap
+from i7000.modbus.register_map import READERS
 from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
@@ -27,11 +27,7 @@ __all__ = ["identify_by_modbus"]
 _MODELS = tuple(model for model in Model if Protocol.MODBUS_RTU in model.protocols)
 _PLAIN = Profile(Model.M_7017, type_codes=())
 """The profile for requests that every model has."""
-_READ: Mapping[Area, Any] = {
-    Area.COIL: modbus.ReadCoils,
-    Area.INPUT_REGISTER: modbus.ReadInputRegisters,
-    Area.HOLDING_REGISTER: modbus.ReadHoldingRegisters,
-}
+_TELLING = (Area.COIL, Area.INPUT_REGISTER, Area.HOLDING_REGISTER)
 """The areas that distinguish models."""
 
 
@@ -178,7 +174,7 @@ def _probed(
             break
         place = min(splitting, key=lambda it: (abs(2 * len(having[it]) - len(places)), it[0].value, it[1]))
         asked.add(place)
-        result = yield from ask(_READ[place[0]](address, place[1], 1), _PLAIN, policy)
+        result = yield from ask(READERS[place[0]](address, place[1], 1), _PLAIN, policy)
         words = outcome_words(result, _PLAIN)
         if isinstance(result.outcome, Answered):
             evidence = evidence.only(having[place], words)
@@ -198,7 +194,7 @@ def _places(profile: Profile) -> set[_Place]:
     return {
         (row.area, address)
         for row in RegisterMap(profile)
-        if row.area in _READ and row.access is not Access.WRITE and row.kind is not Kind.RECORD
+        if row.area in _TELLING and row.access is not Access.WRITE and row.kind is not Kind.RECORD
         for address in range(row.address, row.address + row.count)
     } - _CHANGED_BY_READING
 
