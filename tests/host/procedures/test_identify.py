@@ -365,7 +365,7 @@ def test_a_module_whose_configuration_is_unreadable_is_asked_for_its_name() -> N
     found, _ = run(identify(0x01), by_dcon() | {dcon.ReadConfiguration: lambda _: unreadable})
 
     assert (found.protocol, found.name) == (Protocol.DCON, "7019R")
-    assert f"no answer to $012; received {wire!r}" == unknown(found)["data_format"]
+    assert unknown(found)["data_format"] == r"the answer to $012 is not understood: !01\r"
 
 
 def test_a_module_without_a_readable_name_can_be_every_model_that_answers_like_it() -> None:

@@ -26,8 +26,8 @@ from i7000 import (
     modbus,
 )
 from i7000.device import Eeprom, Signal, Signals, factory, power_on
-from i7000.host import Answered, Declined, Policy, TimedOut
-from i7000.host.procedures import Report, read
+from i7000.host import Answered, Declined, Late, Policy, Rejected, TimedOut
+from i7000.host.procedures import Report, Result, read
 from i7000.simulator.faults import Faults
 from tests.host.procedures.lines import faults
 from tests.host.procedures.runner import Runner
@@ -225,6 +225,20 @@ def test_the_outcome_that_prevents_a_reading_is_returned(protocol: Protocol, ans
 
     assert (report.readings, report.reason, report.mask) == (None, reason, 0x0F)
     assert isinstance(report.outcome, TimedOut if answer is unanswered else Declined)
+
+
+@pytest.mark.parametrize("protocol", Protocol)
+def test_an_answer_that_is_not_a_response_is_no_silence(protocol: Protocol) -> None:
+    def answer(command: Any) -> Result[Any]:
+        return Result(TimedOut(command), (Rejected(b">garbage\r", Fault.LENGTH, "too short"), Late(b"!01\r")))
+
+    report, _ = run(
+        read(0x01, M7018, protocol=protocol, mask=0x0F),
+        {dcon.ReadAnalogInputs: answer, modbus.ReadInputRegisters: answer},
+    )
+
+    assert report.rejected
+    assert report.reason.endswith(r"is not understood: >garbage\r")
 
 
 def test_the_mask_is_read_by_modbus_too() -> None:

@@ -6,9 +6,9 @@ from typing import Any, TypeVar, cast
 from attrs import evolve
 
 from i7000 import dcon, modbus
-from i7000.errors import shown
+from i7000.errors import written
 from i7000.host.bus import Policy
-from i7000.host.events import Answered, Declined
+from i7000.host.events import Answered, Declined, Rejected
 from i7000.host.procedures.identified import Unknown
 from i7000.host.procedures.step import Procedure, Result, ask
 from i7000.message import Query, Response
@@ -40,8 +40,11 @@ def outcome_words(result: Result[Any], profile: Profile) -> str:
         if isinstance(outcome.response, dcon.Refused):
             return f"{request} is refused"
         return f"{request} is refused: exception {outcome.response.describe()['exception_code']}"
-    wires = [shown(other.wire) for other in result.others]
-    return f"no answer to {request}" + (f"; received {', '.join(wires)}" if wires else "")
+    others = [written(other.wire) for other in result.others]
+    rejected = [written(other.wire) for other in result.others if isinstance(other, Rejected)]
+    if rejected:
+        return f"the answer to {request} is not understood: {', '.join(dict.fromkeys(rejected))}"
+    return f"no answer to {request}" + (f"; received {', '.join(others)}" if others else "")
 
 
 def unlearned(name: str, result: Result[Any], profile: Profile) -> Unknown:

@@ -13,10 +13,10 @@ from i7000.arguments import check_type
 from i7000.errors import DecodeError, EncodeError
 from i7000.frozen import frozen
 from i7000.host.bus import Policy
-from i7000.host.events import Answered, Ended
+from i7000.host.events import Answered, Ended, Rejected
 from i7000.host.procedures.asking import outcome_words, value
 from i7000.host.procedures.identified import Unknown
-from i7000.host.procedures.step import Procedure, ask
+from i7000.host.procedures.step import Procedure, Result, ask
 from i7000.profile import Profile
 from i7000.readings import Reading, Status
 from i7000.settings import Protocol, channels_of
@@ -51,6 +51,8 @@ class Report:
     unknown: tuple[Unknown, ...] = field(default=(), kw_only=True)
     """What was not learned: ``mask``, so that a reading of 0 can be that of a disabled channel."""
     reason: str = field(default="", kw_only=True)
+    rejected: bool = field(default=False, kw_only=True)
+    """Whether the outcome is a timeout although something answered: what came is not a response to the request."""
 
 
 def read(
@@ -92,7 +94,7 @@ def read(
 def _by_dcon(address: int, profile: Profile, mask: int | None, policy: Policy | None) -> Procedure[Report]:
     result = yield from ask(dcon.ReadAnalogInputs(address), profile, policy)
     if not isinstance(result.outcome, Answered):
-        return Report(result.outcome, mask=mask, reason=outcome_words(result, profile))
+        return _unanswered(result, mask, profile)
     report = _decoded(result.outcome, profile)
     if profile.model.series == _BLANK_IF_DISABLED:
         return evolve(report, mask=mask)
@@ -105,7 +107,7 @@ def _by_dcon(address: int, profile: Profile, mask: int | None, policy: Policy | 
 def _by_modbus(address: int, profile: Profile, mask: int | None, policy: Policy | None) -> Procedure[Report]:
     result = yield from ask(modbus.ReadInputRegisters(address, 0, profile.channels), profile, policy)
     if not isinstance(result.outcome, Answered):
-        return Report(result.outcome, mask=mask, reason=outcome_words(result, profile))
+        return _unanswered(result, mask, profile)
     try:
         report = Report(result.outcome, modbus.readings(result.outcome.response.values, profile))
     except DecodeError as error:
@@ -114,6 +116,11 @@ def _by_modbus(address: int, profile: Profile, mask: int | None, policy: Policy 
         return _without_disabled(report, mask, profile)
     answer, missing = yield from value("mask", modbus.ReadChannelMask(address), profile, policy)
     return _masked(report, answer, missing, profile)
+
+
+def _unanswered(result: Result[Any], mask: int | None, profile: Profile) -> Report:
+    rejected = any(isinstance(it, Rejected) for it in result.others)
+    return Report(result.outcome, mask=mask, reason=outcome_words(result, profile), rejected=rejected)
 
 
 def _undecoded(outcome: Ended, error: DecodeError) -> Report:
