@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from i7000.cli.frame_text import frame_lines
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
-from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_recording, of_stream
+from i7000.cli.readers import Missing, Read, hinted, of_capture, of_lines, of_recording, of_stream
 from i7000.cli.records import json_of
 from i7000.cli.schema import SCHEMA
 from i7000.cli.source import LONGEST_LINE, Counted, Lines, chunks
@@ -67,7 +67,7 @@ def decode(  # noqa: PLR0913 - each of them is an option
     shown = frozenset(map(address_of, address))
     printer = Printer(json=json)
     with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
-        tally = _print(reads, knowledge, shown, printer)
+        tally = _print(hinted(reads, PROTOCOLS[protocol]), knowledge, shown, printer)
     return tally.code(printer, lines.long if lines else Counted(), strict=strict)
 
 
