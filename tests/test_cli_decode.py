@@ -546,3 +546,25 @@ def test_a_broadcast_that_sets_something_is_noted() -> None:
     assert record["notes"] == [
         "a broadcast, which no module confirms: taken to hold from here on for all that have the register (E94)"
     ]
+
+
+@pytest.mark.parametrize(
+    ("frame", "protocol", "name"),
+    [
+        ("23 30 31 0D", "rtu", "the shape of a DCON frame: ReadAnalogInputs"),
+        ("01 04 00 00 00 01 31 CA", "dcon", "the CRC is right: a Modbus RTU frame, ReadInputRegisters"),
+    ],
+)
+def test_a_frame_of_the_protocol_that_an_option_excludes_is_named_with_the_option(
+    run: Run, frame: str, protocol: str, name: str
+) -> None:
+    (record,) = run("decode", frame, "--protocol", protocol, "--json").records
+
+    assert record["notes"] == [name, f"decode it without --protocol {protocol}"]
+
+
+@pytest.mark.parametrize("protocol", ["auto", "dcon", "rtu"])
+def test_a_frame_of_neither_protocol_names_no_option(run: Run, protocol: str) -> None:
+    (record,) = run("decode", "01 44 00 00 00 01 31 CA", "--protocol", protocol, "--json").records
+
+    assert not [note for note in record["notes"] if "--protocol" in note]

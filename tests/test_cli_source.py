@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from i7000.cli import source
 from i7000.cli.source import LONGEST_LINE, Counted, Lines
 from i7000.recording import End, Start, text
-from tests.dissect.test_capture import pcap
+from tests.dissect.test_capture import pcap, record
 from tests.simulation import MAIN
 from tests.terminal import Run
 
@@ -188,6 +188,15 @@ def test_damage_before_the_first_frame_is_not_understood(run: Run, tmp_path: Pat
 
     assert result.code == 1
     assert "not understood: " in result.err
+
+
+def test_the_packets_and_frames_that_are_not_understood_are_counted_as_such(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "bus.pcap"
+    file.write_bytes(pcap(record(b"$012\r"), record(b"$01m\r")))
+    capture = run("decode", "--file", str(file), "--protocol", "dcon")
+    stream = run("decode", "--raw", "--protocol", "dcon", stdin=b"$012\r$01m\r")
+
+    assert (capture.err, stream.err) == ("i7000: 1 not understood: packet 2\n", "i7000: 1 not understood: frame 2\n")
 
 
 def test_a_log_is_decoded_as_it_arrives() -> None:

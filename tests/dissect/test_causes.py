@@ -34,7 +34,7 @@ def hexed(digits: str) -> bytes:
             "00 07 00 00 00 04 01 FF 00 00",
             f"a Modbus TCP header (transaction 7, 4 bytes follow){ONLY_RTU}",
         ),
-        ("23 30 31 0D", "the shape of a DCON frame"),
+        ("23 30 31 0D", "the shape of a DCON frame: ReadAnalogInputs"),
         (
             "01 04 00 00 00 01 CA 31",
             "the bytes of the CRC are in the wrong order: the low byte comes first, 31 CA",
@@ -138,7 +138,8 @@ def test_the_cause_that_a_command_cannot_be_read_is_named(known: Known, frame: s
         (b"#01\n", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"),
         (b"#01\r\n", "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"),
         (b"#01", "no carriage return (0D) at its end"),
-        (bytes.fromhex("01040000000131CA"), "the CRC is right: a Modbus RTU frame"),
+        (bytes.fromhex("01040000000131CA"), "the CRC is right: a Modbus RTU frame, ReadInputRegisters"),
+        (modbus.seal(b"\x01\x2b\x0e"), "the CRC is right: a Modbus RTU frame"),
     ],
 )
 def test_the_cause_that_the_end_of_a_frame_is_not_that_of_dcon_is_named(wire: bytes, said: str) -> None:
@@ -317,7 +318,7 @@ def test_noise_in_a_stream_has_its_fault_and_cause_in_whatever_pieces_it_comes(
 def test_a_modbus_frame_on_a_line_of_dcon_is_named() -> None:
     _, (heard,) = hear(Line(protocol=Protocol.DCON), bytes.fromhex("01040000000131CA"))
 
-    assert heard.notes == ("the CRC is right: a Modbus RTU frame",)
+    assert heard.notes == ("the CRC is right: a Modbus RTU frame, ReadInputRegisters",)
 
 
 def test_noise_leaves_the_command_before_it_waiting() -> None:

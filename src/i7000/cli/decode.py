@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from i7000.cli.frame_text import frame_lines
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
-from i7000.cli.readers import Missing, Read, of_capture, of_lines, of_recording, of_stream
+from i7000.cli.readers import Missing, Read, hinted, of_capture, of_lines, of_recording, of_stream
 from i7000.cli.records import json_of
 from i7000.cli.schema import SCHEMA
 from i7000.cli.source import LONGEST_LINE, Counted, Lines, chunks
@@ -67,9 +67,9 @@ def decode(  # noqa: PLR0913 - each of them is an option
     knowledge = module.knowledge(protocol)
     shown = frozenset(map(address_of, address))
     printer = Printer(json=json)
-    with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, lines):
-        tally = _print(reads, knowledge, shown, printer)
-    return tally.code(printer, lines.long if lines else Counted(), strict=strict)
+    with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, word, lines):
+        tally = _print(hinted(reads, PROTOCOLS[protocol]), knowledge, shown, printer)
+    return tally.code(printer, word, lines.long if lines else Counted(), strict=strict)
 
 
 # --- what is decoded --------------------------------------------------------------------------------------------------
@@ -85,22 +85,22 @@ class _Input:
 @contextmanager
 def _reads(
     given: _Input, knowledge: Knowledge, protocol: Protocol | None, printer: Printer
-) -> Iterator[tuple[Iterable[Read], Lines | None]]:
-    """Yield the input in pieces; what is decoded is printed before waiting for more."""
+) -> Iterator[tuple[Iterable[Read], str, Lines | None]]:
+    """Yield the input in pieces, and what their numbers count; what is decoded is printed before waiting for more."""
     if given.frames:
         if given.file or given.raw:
             raise UsageError("give either frames, or --file or --raw")
-        yield of_lines(enumerate(map(_argument, given.frames), 1), knowledge, protocol), None
+        yield of_lines(enumerate(map(_argument, given.frames), 1), knowledge, protocol), "line", None
         return
     with _opened(given.file) as stream:
         if given.raw:
-            yield of_stream(chunks(stream, printer.flush), knowledge, protocol), None
+            yield of_stream(chunks(stream, printer.flush), knowledge, protocol), "frame", None
         elif is_capture(stream.peek(4)[:4]):
-            yield of_capture(chunks(stream, printer.flush), knowledge, protocol), None
+            yield of_capture(chunks(stream, printer.flush), knowledge, protocol), "packet", None
         else:
             lines = Lines(stream, printer.flush)
             of = of_recording if is_recording(stream.peek(32)) else of_lines
-            yield of(((number, _text(line)) for number, line in lines), knowledge, protocol), lines
+            yield of(((number, _text(line)) for number, line in lines), knowledge, protocol), "line", lines
 
 
 @contextmanager
@@ -146,8 +146,8 @@ class _Tally:
             contradictory = read.heard is not None and read.heard.error is None
             (self.contradictory if contradictory else self.wrong).add(read.line)
 
-    def code(self, printer: Printer, long: Counted, *, strict: bool) -> int:
-        """Print what was wrong, and return the exit code."""
+    def code(self, printer: Printer, word: str, long: Counted, *, strict: bool) -> int:
+        """Print what was wrong, and return the exit code; `word` is what the numbers count."""
         if not self.records and self.hidden:
             printer.error("no frame of this address")
         elif not self.records:
@@ -158,12 +158,12 @@ class _Tally:
             cut = f"read in pieces of {LONGEST_LINE} bytes that may cut frames"
             printer.error(f"{long.count} too long, {cut}: line {long}")
         if self.wrong.count:
-            printer.error(f"{self.wrong.count} not understood: line {self.wrong}")
+            printer.error(f"{self.wrong.count} not understood: {word} {self.wrong}")
         if strict and self.frameless.count:
-            printer.error(f"{self.frameless.count} without a frame: line {self.frameless}")
+            printer.error(f"{self.frameless.count} without a frame: {word} {self.frameless}")
             return 1
         if self.contradictory.count:
-            printer.error(f"{self.contradictory.count} contradicting what is known: line {self.contradictory}")
+            printer.error(f"{self.contradictory.count} contradicting what is known: {word} {self.contradictory}")
         return 1 if self.wrong.count or self.contradictory.count or long.count else 0
 
 

@@ -18,7 +18,7 @@ from i7000.dissect.stream import looks_like
 from i7000.recording import Carried, Damaged, End, Start, read
 from i7000.settings import Protocol
 
-__all__ = ["Missing", "Read", "of_capture", "of_lines", "of_recording", "of_stream"]
+__all__ = ["Missing", "Read", "hinted", "of_capture", "of_lines", "of_recording", "of_stream"]
 
 _STAMP = re.compile(
     r"(?<![\w:.])(?:\d{4}[-/.]\d\d[-/.]\d\d[T ])?\d\d?:\d\d:\d\d(?:[.,]\d{1,9})?(?:Z|[-+]\d\d:?\d\d)?(?![\w:])"
@@ -84,6 +84,27 @@ def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: P
                 heard = _noted(heard, before[1])
             before = time, f"line {start}"
         yield Read(number, start, last, _shown(text), time, heard, missing, note)
+
+
+def hinted(reads: Iterable[Read], protocol: Protocol | None) -> Iterator[Read]:
+    """Yield what was read; with a note where a frame can be decoded without the option that names the protocol."""
+    for one in reads:
+        heard = one.heard
+        hint = () if heard is None or heard.error is None or protocol is None else _hint(heard.wire, protocol)
+        yield one._replace(heard=evolve(heard, notes=(*heard.notes, *hint))) if heard and hint else one
+
+
+def _hint(wire: bytes, protocol: Protocol) -> tuple[str, ...]:
+    option, other = _OTHERS[protocol]
+    _, found = hear_frame(Line(), wire, other)
+    return () if found.error else (f"decode it without {option}",)
+
+
+_OTHERS = {
+    Protocol.DCON: ("--protocol dcon", Protocol.MODBUS_RTU),
+    Protocol.MODBUS_RTU: ("--protocol rtu", Protocol.DCON),
+}
+"""The option for a protocol, and the protocol that it excludes."""
 
 
 def _noted(heard: Heard, where: str) -> Heard:

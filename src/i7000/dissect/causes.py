@@ -33,7 +33,8 @@ def dcon_causes(wire: bytes, module: Module, asked: bytes | None) -> Iterator[st
     body = wire.rstrip(b"\r\n")
     with suppress(DecodeError):
         modbus.unseal(wire)
-        yield "the CRC is right: a Modbus RTU frame"
+        name = _meant(ModbusReader(Known()), wire[:-2])
+        yield f"the CRC is right: a Modbus RTU frame{f', {name}' if name else ''}"
         return
     if body and wire.endswith(b"\n"):
         yield "a line feed (0A) at its end: DCON frames end with a carriage return (0D)"
@@ -130,7 +131,8 @@ def modbus_causes(wire: bytes, reader: ModbusReader) -> Iterator[str]:
     """Yield the likely causes why a Modbus RTU frame cannot be decoded."""
     with suppress(UnicodeDecodeError):
         if is_shaped(wire.rstrip(b"\r\n").decode("ascii")):
-            yield "the shape of a DCON frame"
+            name = _name(reader_of(Known()), wire.rstrip(b"\r\n"), None)
+            yield f"the shape of a DCON frame{f': {name}' if name else ''}"
             return
     with suppress(DecodeError):
         modbus.unseal(wire)

@@ -58,14 +58,14 @@ def new_address(meaning: Meaning) -> int | None:
 
 _Pairs = Iterator[tuple[str, Any]]
 _REMEMBERED = 64
-"""Broadcasts and modules of which it is kept what one sets in the other: a host may repeat a broadcast for ever."""
+"""The number of pairs of a broadcast and a module for which the cache keeps what the one sets in the other."""
 
 # --- DCON, and function 46h -------------------------------------------------------------------------------------------
 
 
 _SPEAKING = tuple(model for model in Model if Protocol.MODBUS_RTU in model.protocols)
 _MIXED = 2
-"""Types that there are at least where each channel has its own."""
+"""The fewest types of a module whose channels have a type each."""
 
 
 def _types(code: TypeCode | int) -> _Pairs:

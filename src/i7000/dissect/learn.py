@@ -20,7 +20,7 @@ __all__ = ["doubt", "learn", "learn_from_broadcast", "trust", "with_facts"]
 
 
 _REMEMBERED = 256
-"""Answers of which it is kept whether they show something new."""
+"""The number of answers for which the cache keeps whether they show something new."""
 
 
 def learn(

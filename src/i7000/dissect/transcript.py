@@ -143,7 +143,7 @@ def _repeats(first: Piece, piece: Piece) -> bool:
 
 
 def _complete(parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
-    """Take off the list what is a whole frame by now, and what is too long for one."""
+    """Remove from the list, and yield, whole frames and what is too long for one."""
     while sum(len(part.wire) for part in parts) > modbus.LONGEST_FRAME:
         yield from _apart(parts[:1], protocol)
         del parts[0]
