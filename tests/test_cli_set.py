@@ -243,6 +243,7 @@ def test_ctrl_c_at_a_question_changes_nothing(workbench: Bench, monkeypatch: pyt
     monkeypatch.setattr("i7000.cli.confirm._answer", interrupted)
     told = bench("set", "address=5")
 
+    assert told.err.endswith(" [y/N] \n")
     assert (told.code, bench.eeprom) == (130, KELVIN.eeprom)
 
 

@@ -31,7 +31,11 @@ def confirmed(why: str, question: str, printer: Printer, *, yes: bool) -> bool:
     printer.flush()
     sys.stderr.write(f"{why}. {question} [y/N] " if why else f"{question} [y/N] ")
     sys.stderr.flush()
-    return _answer().strip().lower() in _YES
+    try:
+        return _answer().strip().lower() in _YES
+    except KeyboardInterrupt:
+        sys.stderr.write("\n")
+        raise
 
 
 def _answer() -> str:
