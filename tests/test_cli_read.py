@@ -25,7 +25,7 @@ from i7000.cli.silence import silence_cause
 from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
-from i7000.host import Answered, TimedOut
+from i7000.host import Answered, Policy, TimedOut
 from i7000.host.procedures import Candidate, Identified, Result, Unknown, identify, read
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
@@ -309,10 +309,29 @@ def silence(faults: Faults, line: LineSettings = LineSettings()) -> str:  # noqa
         (Faults(echo=True, silent=1.0), "only the echo of the request came: give --echo"),
         (Faults(truncate=1.0), "bytes came that are not a frame: another --baud or --character-format"),
         (Faults(misaddress=1.0), "a frame came that is not the response"),
+        (Faults(late=1.0, late_by=0.4), "its responses are late: give --timeout 1"),
+        (Faults(late=1.0, late_by=0.6), "its responses are late: give --timeout 1"),
     ],
 )
 def test_what_was_heard_in_place_of_a_response_tells_the_cause(faults: Faults, cause: str) -> None:
     assert silence(faults).startswith(cause)
+
+
+def test_a_line_with_a_long_timeout_is_not_asked_again_for_late_responses() -> None:
+    module = power_on(factory(Model.I_7018), now=0.0)
+    faults = Faults(late=1.0, late_by=2.7)
+    with Line(VirtualPort([module], faults=faults), policy=Policy(turnaround=1.0)) as on:
+        assert "late (a longer --timeout)" in silence_cause(on, 0x01, [(Protocol.DCON, False)])
+
+
+def test_late_responses_that_leave_the_types_unknown_are_named(run: Run, scene: Any) -> None:
+    scene(SLOW, faults=Faults(late=1.0, late_by=0.6))
+    told = run("read", "COM3", "--protocol", "dcon", "--no-checksum")
+
+    assert told.err.splitlines()[-1] == (
+        "i7000: address 01: frames came after their time: if responses are late, give --timeout 1"
+    )
+    assert told.code == 1
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Why a module does not answer: a short search at its address, and the likely cause in a sentence.
 
-Laws: the search only reads what changes nothing, and ends after a bounded number of requests.
+Laws: the search only reads what changes nothing, and ends after a bounded number of requests. What does not answer in
+time is asked once more with a long timeout, before anything else is taken for the cause.
 """
 
 from collections.abc import Collection
@@ -8,18 +9,23 @@ from collections.abc import Collection
 from attrs import evolve
 
 from i7000 import Protocol
-from i7000.host.procedures import SCAN_POLICY, Heard, Place, scan
+from i7000.host import TimedOut
+from i7000.host.procedures import SCAN_POLICY, Heard, Place, Procedure, ask, scan
 from i7000.link import Line
 
-__all__ = ["protocol_words", "silence_cause"]
+__all__ = ["LONG_TIMEOUT", "protocol_words", "silence_cause"]
 
 _INIT_ADDRESS = 0x00
+LONG_TIMEOUT = 1.0
+"""Seconds after which even slow adapters and networks have passed a response on."""
 _CAUSES = {
     Heard.NOTHING: "nothing came: check the address, --baud, the power and the wires (swap A and B)",
     Heard.ECHO: "only the echo of the request came: give --echo",
     Heard.NOISE: "bytes came that are not a frame: another --baud or --character-format, swapped wires or interference",
-    Heard.FRAME: "a frame came that is not the response: another host or module is sending",
-    Heard.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending",
+    Heard.FRAME: "a frame came that is not the response: another host or module is sending, or responses are late"
+    " (a longer --timeout)",
+    Heard.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending, or responses are late"
+    " (a longer --timeout)",
     Heard.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules with the same address",
 }
 """What was heard, the more telling the later, and what to do."""
@@ -49,7 +55,20 @@ def silence_cause(line: Line, address: int, tried: Collection[tuple[Protocol, bo
         return (
             "a module in INIT mode answers at address 00: give --address 0, or switch INIT off and its power off and on"
         )
+    if policy.turnaround < LONG_TIMEOUT and line.run(_answers_late(line, address, tried)):
+        return f"its responses are late: give --timeout {LONG_TIMEOUT:g}"
     return _CAUSES[max((finding.heard for finding in scanned.findings), key=[*_CAUSES].index, default=Heard.NOTHING)]
+
+
+def _answers_late(line: Line, address: int, tried: Collection[tuple[Protocol, bool]]) -> Procedure[bool]:
+    """Make the procedure that returns whether something answers within a long timeout."""
+    policy = evolve(SCAN_POLICY, turnaround=LONG_TIMEOUT)
+    for protocol, checksum in tried:
+        place = Place(line.line, address, protocol, checksum=checksum)
+        result = yield from ask(place.question, place.profile, policy)
+        if not isinstance(result.outcome, TimedOut):
+            return True
+    return False
 
 
 def _device_cause(place: Place, tried: Collection[tuple[Protocol, bool]]) -> str:
