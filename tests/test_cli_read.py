@@ -206,6 +206,15 @@ def test_a_model_that_the_module_is_not_is_reported(run: Run) -> None:
     assert told.code == 3
 
 
+def test_a_model_whose_types_are_not_those_of_the_module_is_reported(run: Run) -> None:
+    told = run("read", "sim:M-7019R,type=K,protocol=dcon", "--model", "I-7017")
+
+    assert told.err.splitlines() == [
+        "i7000: address 01: --model I-7017 is given, but it answers as M-7019R: leave out --model, or give --type too"
+    ]
+    assert told.code == 1
+
+
 def test_facts_that_no_module_has_together_are_reported(run: Run) -> None:
     told = run("read", "sim:I-7018,type=K", "--type", "V_10")
 
@@ -284,6 +293,8 @@ def test_settings_without_a_known_baud_rate_have_its_code() -> None:
         ("sim:I-7018,checksum=true", "--no-checksum", "it answers DCON with a checksum: give --protocol dcon --check"),
         ("sim:I-7018", "--checksum", "it answers DCON without a checksum: give --protocol dcon --no-checksum"),
         ("sim:M-7018", "--protocol dcon", "it answers Modbus RTU: give --protocol rtu"),
+        ("sim:M-7019R", "--model I-7017",
+         "it answers Modbus RTU, and I-7017 does not: leave out --model, or give another one"),
         ("sim:M-7018,protocol=dcon", "--protocol rtu",
          "it answers DCON without a checksum: give --protocol dcon --no-checksum"),
         ("sim:I-7018,init=true", "", "a module in INIT mode answers at address 00: give --address 0, or "),
@@ -560,6 +571,13 @@ def test_a_module_of_unknown_types_is_not_read(run: Run, monkeypatch: pytest.Mon
 
     assert told.err == ("i7000: address 01: the types of its channels are unknown (no answer to $018C0): give --type\n")
     assert told.code == 1
+
+
+def test_unknown_types_without_a_reason_have_no_empty_parentheses(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    identified(monkeypatch, lambda it: evolve(it, known=evolve(it.known, types=None), unknown=()))
+    told = run("read", "sim:I-7018")
+
+    assert told.err == "i7000: address 01: the types of its channels are unknown: give --type\n"
 
 
 def test_a_module_that_is_lost_again_while_it_is_identified_stays_as_it_was(

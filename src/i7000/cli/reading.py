@@ -287,8 +287,9 @@ class _Reader:
                 hint = "" if refused or station.wanted.given == Known() else _MISFIT
                 self._note(f"{at}: {reason}{hint}")
             return
+        wanted = station.wanted
         with self._ending.breakable():
-            cause = silence_cause(self._connection.line, polled.address, station.wanted.tried)
+            cause = silence_cause(self._connection.line, polled.address, wanted.tried, wanted.given.model)
         self._note(f"{at} does not answer: {cause}")
 
 

@@ -8,7 +8,7 @@ from collections.abc import Collection
 
 from attrs import evolve
 
-from i7000 import Protocol
+from i7000 import Model, Protocol
 from i7000.host import TimedOut
 from i7000.host.procedures import SCAN_POLICY, Heard, Place, Procedure, ask, scan
 from i7000.link import Line
@@ -40,17 +40,20 @@ def protocol_words(protocol: Protocol, *, checksum: bool) -> str:
     return "Modbus RTU" if protocol is Protocol.MODBUS_RTU else f"DCON {'with' if checksum else 'without'} a checksum"
 
 
-def silence_cause(line: Line, address: int, tried: Collection[tuple[Protocol, bool]]) -> str:
+def silence_cause(
+    line: Line, address: int, tried: Collection[tuple[Protocol, bool]], given: Model | None = None
+) -> str:
     """Look for the module at an address, and return the likely cause of its silence.
 
-    Shape: `tried` has the protocols that were tried, each with whether DCON frames had a checksum.
+    Shape: `tried` has the protocols that were tried, each with whether DCON frames had a checksum; `given` is the model
+        that the user gave.
     Errors: `LinkError` for a port that is lost.
     """
     policy = evolve(SCAN_POLICY, turnaround=max(SCAN_POLICY.turnaround, line.policy.turnaround))
     scanned = line.run(scan([line.line], [address], policy=policy))
     devices = {finding.place.address: finding.place for finding in scanned.devices}
     if address in devices:
-        return _device_cause(devices[address], tried)
+        return _device_cause(devices[address], tried, given)
     if _INIT_ADDRESS in devices:
         return (
             "a module in INIT mode answers at address 00: give --address 0, or switch INIT off and its power off and on"
@@ -71,12 +74,14 @@ def _answers_late(line: Line, address: int, tried: Collection[tuple[Protocol, bo
     return False
 
 
-def _device_cause(place: Place, tried: Collection[tuple[Protocol, bool]]) -> str:
+def _device_cause(place: Place, tried: Collection[tuple[Protocol, bool]], given: Model | None) -> str:
     words = protocol_words(place.protocol, checksum=place.checksum)
     if (place.protocol, place.checksum) in tried:
         return (
             f"it does answer {words} now: an unreliable line or a slow module; give a longer --timeout, more --retries"
         )
+    if given is not None and place.protocol not in given.protocols:
+        return f"it answers {words}, and {given.value} does not: leave out --model, or give another one"
     if place.protocol is Protocol.MODBUS_RTU:
         return f"it answers {words}: give --protocol rtu"
     return f"it answers {words}: give --protocol dcon {'--checksum' if place.checksum else '--no-checksum'}"
