@@ -710,6 +710,18 @@ def test_a_terminal_shows_values_their_age_and_extremes_and_the_counters(
     assert re.fullmatch(r"05 +all +no answer *", last[9])
 
 
+@pytest.mark.parametrize(
+    ("module", "address", "unanswered"),
+    [("M-7019R", "1", "0"), ("I-7018,checksum=true", "1", "0"), ("I-7018", "9", "[1-9]")],
+)
+def test_the_search_for_the_protocol_of_a_module_that_answers_is_not_counted_as_unanswered(
+    run: Run, monkeypatch: pytest.MonkeyPatch, module: str, address: str, unanswered: str
+) -> None:
+    shown = live(run, monkeypatch, f"sim:{module}", "--address", address, "--every", "1s", "--count", "2")
+
+    assert re.search(f"no answer {unanswered}", shown.split("Ctrl-C ends")[-1])
+
+
 def test_a_narrow_terminal_has_no_types(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = live(run, monkeypatch, "sim:I-7018,type=K", "--every", "1s", "--count", "1", columns=80)
 

@@ -61,6 +61,7 @@ class Counts:
     requests: int = 0
     retries: int = 0
     unanswered: int = 0
+    """Requests without a response, but for those in other protocols before a module was identified."""
     late: int = 0
     """Frames that arrived when no response was due."""
     damaged: int = 0
@@ -254,12 +255,15 @@ class _Reader:
 
     def _identify(self) -> None:
         for station in self._stations:
-            late = self._connection.counts.late
+            counts = self._connection.counts
+            late, unanswered = counts.late, counts.unanswered
             with self._ending.breakable():
                 notes = station.identify(self._connection.line)
+            if station.identified and not station.doubted:
+                counts.unanswered = unanswered
             for words in notes:
                 self._note(words)
-            if notes and self._connection.counts.late > late:
+            if notes and counts.late > late:
                 self._note(f"{at_words(station.wanted.address)}: {_LATE}")
 
     def _poll(self) -> tuple[Polled, ...]:
