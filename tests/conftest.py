@@ -18,7 +18,9 @@ pytest_plugins = ["pytester"]
 __all__ = ["answered", "plain", "run", "workbench"]
 
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, print_blob=True, database=None)
+settings.register_profile(
+    "ci", settings.get_profile("dev"), max_examples=40, derandomize=True, print_blob=True, database=None
+)
 settings.register_profile("fast", settings.get_profile("ci"), max_examples=6)
 settings.register_profile("fuzz", settings.get_profile("dev"), max_examples=20_000, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "dev")

@@ -25,7 +25,7 @@ from i7000.cli.silence import silence_cause
 from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.words import UsageError
 from i7000.device import factory, power_on
-from i7000.host import Answered, TimedOut
+from i7000.host import Answered, Policy, TimedOut
 from i7000.host.procedures import Candidate, Identified, Result, Unknown, identify, read
 from i7000.link import Line, LinkError, VirtualPort, open_target
 from i7000.simulator.faults import Faults
@@ -206,6 +206,15 @@ def test_a_model_that_the_module_is_not_is_reported(run: Run) -> None:
     assert told.code == 3
 
 
+def test_a_model_whose_types_are_not_those_of_the_module_is_reported(run: Run) -> None:
+    told = run("read", "sim:M-7019R,type=K,protocol=dcon", "--model", "I-7017")
+
+    assert told.err.splitlines() == [
+        "i7000: address 01: --model I-7017 is given, but it answers as M-7019R: leave out --model, or give --type too"
+    ]
+    assert told.code == 1
+
+
 def test_facts_that_no_module_has_together_are_reported(run: Run) -> None:
     told = run("read", "sim:I-7018,type=K", "--type", "V_10")
 
@@ -284,6 +293,8 @@ def test_settings_without_a_known_baud_rate_have_its_code() -> None:
         ("sim:I-7018,checksum=true", "--no-checksum", "it answers DCON with a checksum: give --protocol dcon --check"),
         ("sim:I-7018", "--checksum", "it answers DCON without a checksum: give --protocol dcon --no-checksum"),
         ("sim:M-7018", "--protocol dcon", "it answers Modbus RTU: give --protocol rtu"),
+        ("sim:M-7019R", "--model I-7017",
+         "it answers Modbus RTU, and I-7017 does not: leave out --model, or give another one"),
         ("sim:M-7018,protocol=dcon", "--protocol rtu",
          "it answers DCON without a checksum: give --protocol dcon --no-checksum"),
         ("sim:I-7018,init=true", "", "a module in INIT mode answers at address 00: give --address 0, or "),
@@ -309,10 +320,29 @@ def silence(faults: Faults, line: LineSettings = LineSettings()) -> str:  # noqa
         (Faults(echo=True, silent=1.0), "only the echo of the request came: give --echo"),
         (Faults(truncate=1.0), "bytes came that are not a frame: another --baud or --character-format"),
         (Faults(misaddress=1.0), "a frame came that is not the response"),
+        (Faults(late=1.0, late_by=0.4), "its responses are late: give --timeout 1"),
+        (Faults(late=1.0, late_by=0.6), "its responses are late: give --timeout 1"),
     ],
 )
 def test_what_was_heard_in_place_of_a_response_tells_the_cause(faults: Faults, cause: str) -> None:
     assert silence(faults).startswith(cause)
+
+
+def test_a_line_with_a_long_timeout_is_not_asked_again_for_late_responses() -> None:
+    module = power_on(factory(Model.I_7018), now=0.0)
+    faults = Faults(late=1.0, late_by=2.7)
+    with Line(VirtualPort([module], faults=faults), policy=Policy(turnaround=1.0)) as on:
+        assert "late (a longer --timeout)" in silence_cause(on, 0x01, [(Protocol.DCON, False)])
+
+
+def test_late_responses_that_leave_the_types_unknown_are_named(run: Run, scene: Any) -> None:
+    scene(SLOW, faults=Faults(late=1.0, late_by=0.6))
+    told = run("read", "COM3", "--protocol", "dcon", "--no-checksum")
+
+    assert told.err.splitlines()[-1] == (
+        "i7000: address 01: frames came after their time: if responses are late, give --timeout 1"
+    )
+    assert told.code == 1
 
 
 @pytest.mark.parametrize(
@@ -543,6 +573,13 @@ def test_a_module_of_unknown_types_is_not_read(run: Run, monkeypatch: pytest.Mon
     assert told.code == 1
 
 
+def test_unknown_types_without_a_reason_have_no_empty_parentheses(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    identified(monkeypatch, lambda it: evolve(it, known=evolve(it.known, types=None), unknown=()))
+    told = run("read", "sim:I-7018")
+
+    assert told.err == "i7000: address 01: the types of its channels are unknown: give --type\n"
+
+
 def test_a_module_that_is_lost_again_while_it_is_identified_stays_as_it_was(
     run: Run, scene: Any, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -671,6 +708,18 @@ def test_a_terminal_shows_values_their_age_and_extremes_and_the_counters(
     assert re.fullmatch(r"01 +0 +152\.4 +degC +ok +\d+\.\d s +152\.4 +152\.4 +0F thermocouple K *", last[1])
     assert re.fullmatch(r"01 +7 +degC +disabled +0F thermocouple K *", last[8])
     assert re.fullmatch(r"05 +all +no answer *", last[9])
+
+
+@pytest.mark.parametrize(
+    ("module", "address", "unanswered"),
+    [("M-7019R", "1", "0"), ("I-7018,checksum=true", "1", "0"), ("I-7018", "9", "[1-9]")],
+)
+def test_the_search_for_the_protocol_of_a_module_that_answers_is_not_counted_as_unanswered(
+    run: Run, monkeypatch: pytest.MonkeyPatch, module: str, address: str, unanswered: str
+) -> None:
+    shown = live(run, monkeypatch, f"sim:{module}", "--address", address, "--every", "1s", "--count", "2")
+
+    assert re.search(f"no answer {unanswered}", shown.split("Ctrl-C ends")[-1])
 
 
 def test_a_narrow_terminal_has_no_types(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -51,6 +51,11 @@ def test_a_device_is_opened_with_the_settings_of_the_line_for_this_program_alone
         assert refusal(path).startswith(f"{path}: another program uses it; ")
 
 
+@pytest.mark.parametrize("text", ["localhost:5020", "192.168.0.7:10001", "[::1]:5020"])
+def test_a_host_and_port_without_a_scheme_is_an_error_that_names_the_schemes(text: str) -> None:
+    assert refusal(text).endswith(f"; for a host and port, write socket://{text} or rfc2217://{text}")
+
+
 def test_a_device_that_does_not_exist_is_an_error_with_those_that_do(monkeypatch: pytest.MonkeyPatch) -> None:
     def listed(count: int) -> None:
         monkeypatch.setattr(

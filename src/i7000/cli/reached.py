@@ -92,7 +92,7 @@ def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = No
     found = open_line.run(identify(wanted.address, protocols=wanted.protocols, checksum=wanted.given.checksum))
     if found.protocol is None:
         with open_line.ending.breakable():
-            cause = silence_cause(open_line.line, wanted.address, wanted.tried)
+            cause = silence_cause(open_line.line, wanted.address, wanted.tried, wanted.given.model)
         raise LineError(f"{at_words(wanted.address)} does not answer: {cause}")
     profile = _profile(wanted, found, like)
     for words in found_words(wanted, found, profile, open_line.run(stored_settings(found))):

@@ -14,7 +14,7 @@ from attrs import define, field, frozen
 
 from i7000 import LineSettings
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
-from i7000.cli.silence import silence_cause
+from i7000.cli.silence import LONG_TIMEOUT, silence_cause
 from i7000.cli.station import Polled, Station, at_words
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError
@@ -61,6 +61,7 @@ class Counts:
     requests: int = 0
     retries: int = 0
     unanswered: int = 0
+    """Requests without a response, but for those in other protocols before a module was identified."""
     late: int = 0
     """Frames that arrived when no response was due."""
     damaged: int = 0
@@ -133,7 +134,7 @@ class Connection:
     """
 
     def __init__(self, plan: Plan, counts: Counts, ending: BreakingEnding) -> None:
-        self._plan, self._counts, self._ending = plan, counts, ending
+        self._plan, self.counts, self._ending = plan, counts, ending
         self._stack = ExitStack()
         self.line = self._open()
 
@@ -141,7 +142,7 @@ class Connection:
         plan = self._plan
         port = self._stack.enter_context(opened(plan.target, plan.settings))
         try:
-            return Line(port, plan.settings, plan.policy, echo=plan.echo, observe=self._counts.observe)
+            return Line(port, plan.settings, plan.policy, echo=plan.echo, observe=self.counts.observe)
         except LinkError as error:
             self.close()
             raise LineError(error) from None
@@ -190,7 +191,7 @@ def run(plan: Plan, outputs: tuple[Output, ...], counts: Counts, note: Callable[
                 connection = Connection(plan, counts, ending)
             try:
                 reader = _Reader(plan, connection, outputs, note, ending)
-                return reader.once() if plan.every is None else reader.steadily(plan.every, counts)
+                return reader.once() if plan.every is None else reader.steadily(plan.every)
             finally:
                 connection.close()
         except KeyboardInterrupt:
@@ -227,7 +228,7 @@ class _Reader:
             return LineError.code
         return int(not all(it.understood for it in polled))
 
-    def steadily(self, period: float, counts: Counts) -> int:
+    def steadily(self, period: float) -> int:
         """Read all modules in each period until there is an end, and return the exit code."""
         try:
             self._identify()
@@ -240,7 +241,7 @@ class _Reader:
                 self._connection.wait(schedule.begins(number), number * period)
                 polled = self._poll()
             except LinkError as error:
-                counts.missed += 1
+                self._connection.counts.missed += 1
                 self._note(f"{error}; waiting until it is back")
                 self._connection.reopen()
                 self._note("the port is back")
@@ -248,16 +249,22 @@ class _Reader:
                 self._show(polled)
                 left = None if left is None else left - 1
             following = schedule.next(number, monotonic())
-            counts.missed += following - number - 1
+            self._connection.counts.missed += following - number - 1
             number = following
         return 0
 
     def _identify(self) -> None:
         for station in self._stations:
+            counts = self._connection.counts
+            late, unanswered = counts.late, counts.unanswered
             with self._ending.breakable():
                 notes = station.identify(self._connection.line)
+            if station.identified and not station.doubted:
+                counts.unanswered = unanswered
             for words in notes:
                 self._note(words)
+            if notes and counts.late > late:
+                self._note(f"{at_words(station.wanted.address)}: {_LATE}")
 
     def _poll(self) -> tuple[Polled, ...]:
         with self._ending.breakable():
@@ -284,9 +291,11 @@ class _Reader:
                 hint = "" if refused or station.wanted.given == Known() else _MISFIT
                 self._note(f"{at}: {reason}{hint}")
             return
+        wanted = station.wanted
         with self._ending.breakable():
-            cause = silence_cause(self._connection.line, polled.address, station.wanted.tried)
+            cause = silence_cause(self._connection.line, polled.address, wanted.tried, wanted.given.model)
         self._note(f"{at} does not answer: {cause}")
 
 
+_LATE = f"frames came after their time: if responses are late, give --timeout {LONG_TIMEOUT:g}"
 _MISFIT = "; do --model, --type and --format fit the module?"

@@ -128,8 +128,7 @@ class Station:
         if profile is None:
             return self._not_read(f"{'; '.join(found.reasons)}: give --model")
         if not profile.type_codes:
-            reasons = "; ".join(it.reason for it in found.unknown if it.name == "types")
-            return self._not_read(f"the types of its channels are unknown ({reasons}): give --type")
+            return self._not_read(_untyped_words(self.wanted, found))
         self.profile, self.doubted, self.mask = profile, False, None
         self.protocol = self.wanted.protocols[0] if found.protocol is None else found.protocol
         words = tuple(found_words(self.wanted, found, profile, stored)) if self.answered else ()
@@ -199,7 +198,7 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
 def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
-    models = " or ".join(candidate.model.value for candidate in found.candidates) or profile.model.value
+    models = _models(found) or profile.model.value
     read_as = f", read as {profile.model.value}" if len(found.candidates) > 1 else ""
     version = found.known.firmware or found.version
     firmware = f" {version}" if version else ""
@@ -208,13 +207,32 @@ def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Sto
     yield f"{at}: {models}{firmware}{read_as}, {protocol}{reasons}"
     if stored is not None:
         yield f"{at}: it is {stored.words()}"
-    if wanted.given.model and found.candidates and wanted.given.model not in {it.model for it in found.candidates}:
-        yield f"{at}: it is read as {wanted.given.model.value}, as given, but it answers as {models}"
+    if other := _other_model(wanted, found):
+        yield f"{at}: it is read as {profile.model.value}, as given, but it answers as {other}"
     learned = dict(_facts(found.known))
     for name, value in _facts(wanted.given):
         said = learned.get(name)
         if name != "model" and said is not None and not _agree(value, said):
             yield f"{at}: {fact_words(Fact(name, value))} is given, but the module says {fact_words(Fact(name, said))}"
+
+
+def _untyped_words(wanted: Wanted, found: Identified) -> str:
+    """Return why a module has no types, and what to give."""
+    if wanted.given.model and (other := _other_model(wanted, found)):
+        given = wanted.given.model.value
+        return f"--model {given} is given, but it answers as {other}: leave out --model, or give --type too"
+    reasons = "; ".join(it.reason for it in found.unknown if it.name == "types")
+    return f"the types of its channels are unknown{f' ({reasons})' if reasons else ''}: give --type"
+
+
+def _models(found: Identified) -> str:
+    return " or ".join(candidate.model.value for candidate in found.candidates)
+
+
+def _other_model(wanted: Wanted, found: Identified) -> str:
+    """Return the models that a module can be if the given one is not among them, or else an empty text."""
+    given = wanted.given.model
+    return _models(found) if given and given not in {it.model for it in found.candidates} else ""
 
 
 def _agree(given: object, said: object) -> bool:

@@ -36,6 +36,7 @@ FORMS = "a device such as /dev/ttyUSB0 or COM3, socket://HOST:PORT, rfc2217://HO
 
 _NEXT_MODULE = re.compile(r"\+(?=\s*[im]-)", re.IGNORECASE)
 """The sign between modules; others are those of numbers."""
+_HOST_AND_PORT = re.compile(r"([\w.-]+|\[[\da-fA-F:]+\]):\d{1,5}")
 _MOST_LISTED = 8
 _WRITE_TIMEOUT = 5.0
 """The longest time in seconds that the other end of a port can hold up a write."""
@@ -148,7 +149,7 @@ def _serial(target: str, line: LineSettings, rs485: "RS485Settings | None", *, u
             port.rs485_mode = rs485
     except Exception as error:  # noqa: BLE001 - pyserial raises many kinds
         port.close()
-        raise LinkError(f"{target}: {_reason(error)}{'' if url else _possible()}") from None
+        raise LinkError(f"{target}: {_reason(error)}{'' if url else _possible(target)}") from None
     return port
 
 
@@ -180,10 +181,12 @@ def _reason(error: BaseException) -> str:
     return " ".join(str(reason).split())
 
 
-def _possible() -> str:
-    """Return the end of a message with the serial ports of this machine."""
+def _possible(target: str) -> str:
+    """Return the end of a message with what can be meant: a host and port, or the serial ports of this machine."""
     from serial.tools.list_ports import comports  # noqa: PLC0415
 
+    if _HOST_AND_PORT.fullmatch(target):
+        return f"; for a host and port, write socket://{target} or rfc2217://{target}"
     ports = sorted(port.device for port in comports())
     more = ", ..." if len(ports) > _MOST_LISTED else ""
     if not ports:
