@@ -24,9 +24,9 @@ _CAUSES = {
     FindingKind.NOISE: "bytes came that are not a frame: another --baud or --character-format, or swapped wires",
     FindingKind.FRAME: "a frame came that is not the response: another host or module is sending, or responses are late"
     " (a longer --timeout)",
-    FindingKind.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending, or responses are late"
-    " (a longer --timeout)",
-    FindingKind.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules with the same address",
+    FindingKind.OTHER_PROTOCOL: "frames of the other protocol came: another host or module is sending, or responses are"
+    " late (a longer --timeout)",
+    FindingKind.WRONG_CHECKSUM: "a frame with a wrong checksum came: interference, or two modules at one address",
 }
 """What was heard, the more telling the later, and what to do."""
 

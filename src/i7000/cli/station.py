@@ -147,7 +147,7 @@ class Station:
             return Polled(address, _now(), self.answered, self.reason)
         policy = None if self.answered else evolve(line.policy, retries=0)
         report = line.run(read(address, self.profile, protocol=self.protocol, mask=self.mask, policy=policy))
-        self.answered = not isinstance(report.outcome, TimedOut)
+        self.answered = report.rejected or not isinstance(report.outcome, TimedOut)
         self.mask = report.mask if self.answered else None
         polled = Polled(address, _now(), self.answered, report.reason, report, self.profile, self.protocol)
         self.doubted = not (polled.understood or isinstance(report.outcome, Declined))
