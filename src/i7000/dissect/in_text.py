@@ -12,8 +12,8 @@ from i7000.dissect.spelling import DIRECTIONS, UNITS, in_url, text_of, without_n
 __all__ = ["in_text"]
 
 _NO_TEXT = "\0-\x08\x0e-\x1a\x1c-\x1f\x7f\udc80-\udcff"
-"""Characters that sentences have not: control characters, and bytes that are not UTF-8, as `surrogateescape` decodes
-them. Those that format text or begin a command of a terminal are not among them."""
+"""Characters that sentences do not contain: control characters, and bytes that are not UTF-8, as `surrogateescape`
+decodes them; without those that format text or begin a command of a terminal."""
 _LEADING = pattern(r"[%#$~@!>?]")
 _MAY_LEAD = pattern(r"[%#$~@!>?\\]|&gt;")
 _UP_TO_END = pattern(rf".[ \"&-=A-}}{_NO_TEXT}]*(?=[\r\n])")
