@@ -228,7 +228,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode --file .", "i7000: .: Is a directory\n"),
         ("decode $012 --file x", "give either frames, or --file or --raw"),
         ("decode $012 --model I-7020", "there is no model 'I-7020'; did you mean I-7018, I-7017 or I-7019R?"),
-        ("decode $012 --model=", "there is no model '': I-7017, I-7017F, "),
+        ("decode $012 --model=", "there is no model ''; models have names such as I-7017, M-7018R and M-7019Z"),
         ("decode $012 --firmware new", "--firmware cannot be new"),
         ("decode $012 --type Q", "'Q' is not a type"),
         ("decode $012 --type 20", "--type: type 20 is not defined: types are 00..1C"),
@@ -237,7 +237,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode $012 --type K,K,K", "type codes, or none"),
         ("decode $012 --type K,J,K --model I-7019R", "8 type codes"),
         ("decode $012 --single-ended --model I-7018", "--single-ended cannot be given"),
-        ("commands --model x", "there is no model 'x': I-7017, "),
+        ("commands --model x", "there is no model 'x'; models have names such as I-7017, M-7018R and M-7019Z"),
     ],
 )
 def test_wrong_usage_is_reported(run: Run, arguments: str, message: str) -> None:
