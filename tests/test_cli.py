@@ -301,6 +301,24 @@ def test_a_module_that_is_not_installed_is_reported_with_its_extra(
     assert result.code == 2
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("read sim:I-7018 3", "unexpected argument '3': write --address 3"),
+        ("read sim:I-7018 0x1F", "unexpected argument '0x1F': write --address 0x1F"),
+        ("backup sim:I-7018 unwritten.json 3", "unexpected argument '3': write --address 3"),
+        ("read sim:I-7018 300", "unexpected argument '300': put what has blanks in quotes"),
+        ("scan sim:I-7018 3", "unexpected argument '3': put what has blanks in quotes"),
+    ],
+)
+def test_a_number_too_many_is_taken_for_an_address_where_there_can_be_one(
+    run: Run, arguments: str, message: str
+) -> None:
+    result = run(*arguments.split())
+
+    assert (result.err, result.code) == (f"i7000: {message}\n", 2)
+
+
 def test_an_argument_too_many_is_refused_with_what_may_be_meant(run: Run) -> None:
     result = run("commands", "46", "2A")
 
