@@ -228,7 +228,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode --file .", "i7000: .: Is a directory\n"),
         ("decode $012 --file x", "give either frames, or --file or --raw"),
         ("decode $012 --model I-7020", "there is no model 'I-7020'; did you mean I-7018, I-7017 or I-7019R?"),
-        ("decode $012 --model=", "there is no model '': I-7017, I-7017F, "),
+        ("decode $012 --model=", "there is no model ''; models have names such as I-7017, M-7018R and M-7019Z"),
         ("decode $012 --firmware new", "--firmware cannot be new"),
         ("decode $012 --type Q", "'Q' is not a type"),
         ("decode $012 --type 20", "--type: type 20 is not defined: types are 00..1C"),
@@ -237,7 +237,7 @@ def test_errata_are_those_of_the_document() -> None:
         ("decode $012 --type K,K,K", "type codes, or none"),
         ("decode $012 --type K,J,K --model I-7019R", "8 type codes"),
         ("decode $012 --single-ended --model I-7018", "--single-ended cannot be given"),
-        ("commands --model x", "there is no model 'x': I-7017, "),
+        ("commands --model x", "there is no model 'x'; models have names such as I-7017, M-7018R and M-7019Z"),
     ],
 )
 def test_wrong_usage_is_reported(run: Run, arguments: str, message: str) -> None:
@@ -299,6 +299,24 @@ def test_a_module_that_is_not_installed_is_reported_with_its_extra(
 
     assert result.err == f'i7000: no module {missing}; this needs: pip install "i7000[{extra}]"\n'
     assert result.code == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("read sim:I-7018 3", "unexpected argument '3': write --address 3"),
+        ("read sim:I-7018 0x1F", "unexpected argument '0x1F': write --address 0x1F"),
+        ("backup sim:I-7018 unwritten.json 3", "unexpected argument '3': write --address 3"),
+        ("read sim:I-7018 300", "unexpected argument '300': put what has blanks in quotes"),
+        ("scan sim:I-7018 3", "unexpected argument '3': put what has blanks in quotes"),
+    ],
+)
+def test_a_number_too_many_is_taken_for_an_address_where_there_can_be_one(
+    run: Run, arguments: str, message: str
+) -> None:
+    result = run(*arguments.split())
+
+    assert (result.err, result.code) == (f"i7000: {message}\n", 2)
 
 
 def test_an_argument_too_many_is_refused_with_what_may_be_meant(run: Run) -> None:

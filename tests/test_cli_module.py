@@ -108,7 +108,7 @@ def test_reports_are_set_by_their_parts(text: str, field: str, value: object) ->
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "--model '': there is no model '': I-7017, I-7017F"),
+        ("", "--model '': there is no model ''; models have names such as I-7017, M-7018R and M-7019Z"),
         ("I-7020", "there is no model 'I-7020'; did you mean I-7018, "),
         ("M-7019X", "there is no model 'M-7019X': I-7019R, M-7019R, M-7019Z"),
         ("M-7019R@", "firmware cannot be '': a letter, a digit and a minor number"),

@@ -175,7 +175,9 @@ def test_everything_that_can_be_heard_has_words() -> None:
     [
         ("--baud 02h", "--baud 02h: no module has this baud rate"),
         ("--baud 9601", "9601 is not a baud rate: give one of "),
-        ("--addresses 5-1", "--addresses 5-1: 5-1 is not within 0-255, such as 1-20"),
+        ("--addresses 5-1", "--addresses 5-1: 5-1 ends before it begins: write 1-5"),
+        ("--addresses 0,0x14-3", "--addresses 0,0x14-3: 0x14-3 ends before it begins: write 3-0x14"),
+        ("--addresses 300-1", "--addresses 300-1: 300-1 is not within 0-255, such as 1-20"),
         ("--addresses 1,256", "--addresses 1,256: 256 is not within 0-255, such as 1-20"),
         ("--addresses 1-", "--addresses 1-: '' is not a whole number"),
         ("--timeout -1", "--timeout -1: give more than 0, at most 60 seconds"),

@@ -200,6 +200,7 @@ def test_simulated_modules_have_faults_signals_and_the_init_switch() -> None:
     ("text", "reason"),
     [
         ("sim:", "target cannot be 'sim:': module '': there is no model ''"),
+        ("sim:FOO", "module FOO: there is no model 'FOO'; models have names such as I-7017, M-7018R and M-7019Z"),
         ("sim:I-7020", "target cannot be 'sim:I-7020': module I-7020: there is no model 'I-7020'; did you mean I-7018"),
         ("sim:I-7018,typ=K", "a module has no setting 'typ'"),
     ],

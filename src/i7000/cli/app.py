@@ -14,6 +14,7 @@ from i7000.cli.diff import diff
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
+from i7000.cli.options import address_of
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
@@ -80,5 +81,20 @@ def _words(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         return error.strerror if error.filename is None else f"{error.filename}: {error.strerror}"
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
-        return f"unexpected argument {error.unused_tokens[0]!r}: put what has blanks in quotes"
+        unused = error.unused_tokens[0]
+        is_address = _is_address(unused, error.app or app)
+        meant = f"write --address {unused}" if is_address else "put what has blanks in quotes"
+        return f"unexpected argument {unused!r}: {meant}"
     return str(error)
+
+
+def _is_address(text: str, command: App) -> bool:
+    """Return whether a text is an address, and the command has an option for one."""
+    names = {name for it in command.assemble_argument_collection() for name in it.names}
+    if "--address" not in names:
+        return False
+    try:
+        address_of(text)
+    except UsageError:
+        return False
+    return True

@@ -103,10 +103,12 @@ def _addresses(text: str) -> tuple[int, ...]:
     """Read addresses with commas and ranges."""
     found: list[int] = []
     for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
+        first, dash, last = (it.strip() for it in part.partition("-"))
         with named(f"--addresses {text}"):
             low, high = integer(first), integer(last if dash else first)
-        if not 0 <= low <= high <= LAST_ADDRESS:
+        if not (0 <= low <= LAST_ADDRESS and 0 <= high <= LAST_ADDRESS):
             raise UsageError(f"--addresses {text}: {part.strip()} is not within 0-{LAST_ADDRESS}, such as 1-20")
+        if high < low:
+            raise UsageError(f"--addresses {text}: {part.strip()} ends before it begins: write {last}-{first}")
         found.extend(range(low, high + 1))
     return tuple(dict.fromkeys(found))

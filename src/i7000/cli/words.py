@@ -92,8 +92,8 @@ def model(text: str) -> Model:
     except InvalidValueError as refusal:
         every = [one.value for one in Model]
         few = refusal.allowed if len(refusal.allowed.split(", ")) < len(every) else ""
-        hint = "" if few else near(text, every)
-        raise UsageError(f"there is no model {text!r}{hint or f': {few or refusal.allowed}'}") from None
+        hint = f": {few}" if few else near(text, every) or "; models have names such as I-7017, M-7018R and M-7019Z"
+        raise UsageError(f"there is no model {text!r}{hint}") from None
 
 
 def choice(text: str, choices: Mapping[str, _T]) -> _T:
