@@ -1,14 +1,17 @@
 """``i7000 listen``: what is heard at a port, decoded, shown and recorded."""
 
+import errno
 import json
 import os
 import signal
 from pathlib import Path
+from typing import IO, Any
 
 import pytest
 from attrs import define
 
 from i7000 import Model, Profile, modbus
+from i7000.cli.outlet import Outlet
 from i7000.dissect.capture import Packet, packets
 from i7000.link import LinkError
 from i7000.recording import Carried, End, Start, read
@@ -195,6 +198,38 @@ def test_a_file_that_exists_is_not_overwritten(run: Run, monkeypatch: pytest.Mon
 
     assert (told.code, told.err) == (2, f"i7000: {path}: File exists\n")
     assert path.read_text() == "mine"
+
+
+def test_lines_that_nobody_reads_are_counted(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Unread(Outlet):
+        def close(self) -> int:
+            return super().close() + 2
+
+    monkeypatch.setattr("i7000.cli.listening.Outlet", Unread)
+
+    told = listened(run, monkeypatch, (0.5, b"$012\r"))
+
+    assert (told.code, told.err) == (0, "i7000: 2 lines not shown\n")
+
+
+def test_output_that_cannot_be_written_is_said_and_the_recording_goes_on(
+    run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    class Full(Outlet):
+        def __init__(self, file: IO[str], **options: Any) -> None:
+            def write(_: str) -> int:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+            monkeypatch.setattr(file, "write", write)
+            super().__init__(file, **options)
+
+    monkeypatch.setattr("i7000.cli.listening.Outlet", Full)
+    path = tmp_path / "bus.jsonl"
+
+    told = listened(run, monkeypatch, (0.5, b"$012\r"), (0.5, b"!01050600\r"), options=("--record", str(path)))
+
+    assert (told.code, told.err) == (2, "i7000: the output cannot be written: No space left on device\n")
+    assert len(path.read_text().splitlines()) == 4
 
 
 def test_the_schema_of_a_recording_is_printed(run: Run) -> None:
