@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from attrs import frozen
+from serial import SerialException
 
 from i7000 import BaudRate, CharacterFormat, EncodeError, LineSettings, dcon, modbus
 from i7000.errors import I7000Error, InvalidValueError, StateError
@@ -437,6 +438,17 @@ def test_a_port_that_disappears_is_one_error_and_closes_the_line(opened: Open, e
             line.ask((READ, PROFILE))
     assert isinstance(seen[-1], Abandoned)
     assert not port.is_open
+
+
+def test_a_device_that_is_gone_is_said_in_plain_words() -> None:
+    port = Gone(MODULES, line=FAST)
+    port.error = SerialException(
+        "device reports readiness to read but returned no data (device disconnected or multiple access on port?)"
+    )
+    said = "Gone: the port is lost: the device was unplugged or has ended, or another program reads it too"
+
+    with pytest.raises(LinkError, match=f"^{said}$"):
+        Line(port, FAST).ask(READ, PROFILE)
 
 
 def test_a_lost_port_is_an_error_of_the_package_and_of_the_system() -> None:

@@ -141,4 +141,10 @@ def close(port: Port) -> None:
 def _lost(port: Port, error: Exception, reason: str = "is lost") -> LinkError:
     if not getattr(port, "is_open", True):
         return LinkError(f"{named(port)}: the port is closed")
-    return LinkError(f"{named(port)}: the port {reason}: {error}")
+    cause = _UNPLUGGED if _NO_DATA in str(error) else error
+    return LinkError(f"{named(port)}: the port {reason}: {cause}")
+
+
+_NO_DATA = "readiness to read but returned no data"
+"""What pyserial raises for a device that is gone."""
+_UNPLUGGED = "the device was unplugged or has ended, or another program reads it too"
