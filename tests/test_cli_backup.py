@@ -239,6 +239,7 @@ def test_a_file_has_the_mode_that_the_user_wants_for_new_ones(tmp_path: Path) ->
     ("text", "words"),
     [
         ("", "this is not a snapshot"),
+        ("[]", "this is not a snapshot: it is not an object; give a file of i7000 backup"),
         ("[]", "it is not an object"),
         ("{}", "missing"),
         ("x" * (1 << 21), "more than 1048576 bytes"),

@@ -132,7 +132,7 @@ def test_a_file_of_another_model_is_refused(workbench: Bench, tmp_path: Path) ->
 
     words = f"{path} is of I-7017, the module is M-7019R: name the settings to restore"
     assert told.err.splitlines()[-1] == f"i7000: {words}"
-    assert (told.code, bench.eeprom) == (1, KELVIN.eeprom)
+    assert (told.code, bench.eeprom) == (2, KELVIN.eeprom)
 
 
 def test_named_settings_of_a_file_of_another_model_are_restored(workbench: Bench, tmp_path: Path) -> None:

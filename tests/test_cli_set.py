@@ -186,12 +186,23 @@ def test_a_module_that_stops_answering_is_not_listed(workbench: Bench) -> None:
 # --- what could lose the module ---------------------------------------------------------------------------------------
 
 
+def test_a_value_is_checked_before_consent_is_needed(workbench: Bench) -> None:
+    bench = workbench(KELVIN)
+
+    told = bench("set", "address=300")
+
+    assert told.err.splitlines()[1:] == ["i7000: address cannot be '300': 0..255"]
+    assert (told.code, bench.eeprom) == (2, KELVIN.eeprom)
+
+
 def test_what_could_lose_the_module_needs_consent(workbench: Bench) -> None:
     bench = workbench(KELVIN)
 
     told = bench("set", "address=5", "name=OVEN")
 
-    assert told.err == ("i7000: address could lose the module; there is no terminal to ask you at: give --yes\n")
+    assert told.err.splitlines()[1:] == [
+        "i7000: address=5 could lose the module; there is no terminal to ask you at: give --yes"
+    ]
     assert (told.code, bench.eeprom) == (2, KELVIN.eeprom)
 
 

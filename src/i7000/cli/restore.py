@@ -60,9 +60,9 @@ def restore(  # noqa: PLR0913 - each of them is an option
 
     Example: `i7000 restore /dev/ttyUSB0 oven.json type_code filter --yes`
 
-    Exit code: 0 if all settings are as wanted, 1 if one was refused or not verified or you said no; 2 for wrong usage,
-    3 if the port cannot be opened or the module does not answer; 6 if the module was left changed, since a setting is
-    in doubt or the module stopped answering in the middle; 130 after Ctrl-C.
+    Exit code: 0 if all settings are as wanted, 1 if one was refused or not verified or you said no; 2 for wrong usage
+    or a file of another model, 3 if the port cannot be opened or the module does not answer; 6 if the module was left
+    changed, since a setting is in doubt or the module stopped answering in the middle; 130 after Ctrl-C.
     """
     from i7000.cli.reached import reach, run  # noqa: PLC0415 - it takes time
 
@@ -76,8 +76,7 @@ def restore(  # noqa: PLR0913 - each of them is an option
         there = reach(open_line, asked, printer.note, wanted.model)
         if there.profile.model is not wanted.model and not names:
             models = f"{file} is of {wanted.model.value}, the module is {there.profile.model.value}"
-            printer.error(f"{models}: name the settings to restore")
-            return 1
+            raise UsageError(f"{models}: name the settings to restore")
         return _change(there, wanted, chosen, printer, yes=yes)
 
     return run(asked, change)

@@ -7,7 +7,6 @@ from cyclopts import Parameter
 
 from i7000 import InvalidValueError, Profile, Protocol
 from i7000.cli.asked import DEFAULT_ONE, LEFT_CHANGED, OneModule, Yes, asked_of
-from i7000.cli.confirm import check_can_ask
 from i7000.cli.options import UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
 from i7000.cli.setting_text import LOSES, listed_lines, listed_record
@@ -65,8 +64,6 @@ def set_setting(  # noqa: PLR0913 - each of them is an option
     if listed == bool(pairs):
         raise UsageError("give either NAME=VALUE, or --list for the names and values")
     risky = [name for name, _ in pairs if hazard_of(name) is Hazard.LOSES]
-    if risky:
-        check_can_ask(f"{risky[0]} {LOSES}", yes=yes)
     asked = asked_of(target, line, asking, one, module)
 
     def change(open_line: "OpenLine") -> int:

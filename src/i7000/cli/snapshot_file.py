@@ -36,7 +36,8 @@ def read_snapshot(path: str) -> Snapshot:
     try:
         return Snapshot.from_json(data)
     except InvalidValueError as error:
-        raise UsageError(f"{path}: {error}") from None
+        words = f"{error.reason}; give a file of i7000 backup" if error.field == "json" else error
+        raise UsageError(f"{path}: {words}") from None
 
 
 def _limited(file: BufferedReader) -> bytes:

@@ -284,6 +284,35 @@ def test_the_address_of_another_module_is_not_taken(protocol: Protocol) -> None:
     assert written(bench) == []
 
 
+@pytest.mark.parametrize("protocol", Protocol)
+@pytest.mark.parametrize(
+    "other",
+    [
+        module(Model.I_7018, address=2),
+        module(Model.I_7018, address=2, report_settings=ReportSettings(checksum=True)),
+        module(protocol=Protocol.MODBUS_RTU, address=2),
+    ],
+    ids=["DCON", "DCON with a checksum", "Modbus RTU"],
+)
+def test_the_address_of_a_module_that_is_spoken_to_differently_is_not_taken(protocol: Protocol, other: Eeprom) -> None:
+    bench = Bench.of(module(protocol=protocol), other)
+
+    made = bench.run(set_one(1, Profile(Model.M_7019R), "address", 2, protocol=protocol))
+
+    assert made.of("address").status is Status.SKIPPED
+    assert module(protocol=protocol) == bench.eeprom
+    assert written(bench) == []
+
+
+def test_an_address_that_modbus_does_not_have_is_looked_at_by_dcon_only() -> None:
+    bench = Bench.of(module())
+
+    made = bench.run(set_one(1, Profile(Model.M_7019R), "address", 0xFF))
+
+    assert made.address == 0xFF
+    assert not any(isinstance(it, modbus.Request) for it in bench.asked)
+
+
 def test_an_address_in_init_mode_is_pending() -> None:
     bench = Bench.of(module(Model.I_7018), init_switch=True)
 

@@ -30,10 +30,12 @@ from i7000.host.procedures.inquiry import (
     refined,
     refusal,
 )
+from i7000.host.procedures.places import SCAN_POLICY, Place
 from i7000.host.procedures.settings import Setting, settings_of, why_not
 from i7000.host.procedures.snapshot import in_order
 from i7000.host.procedures.step import Procedure, Tell, Tune, ask
 from i7000.host.procedures.values import Plain
+from i7000.modbus.request import LAST_ADDRESS
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 from i7000.type_codes import TypeCode
@@ -270,11 +272,25 @@ def _retuned(here: Here, read: dcon.Configuration, command: dcon.SetConfiguratio
     return evolve(here, profile=profile, line=command.line_settings), evolve(here, line=old)
 
 
-def _is_taken(place: Here) -> Procedure[bool]:
-    """Return whether anything answers at an address where nothing should."""
-    rtu = place.protocol is Protocol.MODBUS_RTU
-    result = yield from ask((modbus if rtu else dcon).ReadModuleName(place.address), place.profile)
-    return not isinstance(result.outcome, TimedOut) or any(isinstance(it, Rejected) for it in result.others)
+def _is_taken(here: Here) -> Procedure[bool]:
+    """Return whether anything answers at an address where nothing should, by any protocol and checksum setting.
+
+    Time: only the request by the protocol of the module has the policy of the line; the others have a short one.
+    """
+    own = here.protocol, here.protocol is Protocol.DCON and here.profile.checksum
+    for protocol, checksum in (own, *(way for way in _WAYS if way != own)):
+        if protocol is Protocol.MODBUS_RTU and not 1 <= here.address <= LAST_ADDRESS:
+            continue
+        place = Place(LineSettings(), here.address, protocol, checksum=checksum)
+        policy = None if (protocol, checksum) == own else SCAN_POLICY
+        result = yield from ask(place.question, place.profile, policy)
+        if not isinstance(result.outcome, TimedOut) or any(isinstance(it, Rejected) for it in result.others):
+            return True
+    return False
+
+
+_WAYS = (Protocol.DCON, False), (Protocol.DCON, True), (Protocol.MODBUS_RTU, False)
+"""The protocols, each with whether DCON frames have a checksum."""
 
 
 def _read_back(places: tuple[Here, ...], targets: list[Target]) -> Procedure[tuple[Here, Answer]]:
