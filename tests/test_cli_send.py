@@ -246,6 +246,7 @@ def test_a_dangerous_command_is_sent_if_you_say_so(answer: bytes, address: int, 
     ("arguments", "message"),
     [
         ("ReadConf address=1", "there is no command 'ReadConf'; did you mean ReadConfiguration?"),
+        ("$022", "there is no command '$022': give its name; i7000 decode shows that of a frame"),
         ("Configuration address=1", "there is no command 'Configuration'; did you mean "),
         ("ReadCoils address=1 --protocol dcon", "there is no command 'ReadCoils' with --protocol dcon"),
         ("ReadConfiguration", "ReadConfiguration needs address=..., such as address=1"),

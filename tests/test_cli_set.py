@@ -36,7 +36,8 @@ def test_every_setting_of_every_module_is_listed(simulated: Simulated, workbench
     told = bench("set", "--list", "--model", simulated.eeprom.model.value)
     state = bench.port.modules[0]
 
-    assert [row[0] for row in rows(told.out)] == [
+    assert rows(told.out)[0] == ["setting", "value", "allowed"]
+    assert [row[0] for row in rows(told.out)[1:]] == [
         it.name for it in settings_of(state.profile, simulated.eeprom.protocol)
     ]
     assert (told.code, bench.eeprom) == (0, simulated.eeprom)

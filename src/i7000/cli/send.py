@@ -111,7 +111,10 @@ def _kinds(name: str, protocol: ProtocolChoice) -> dict[Protocol, type[Query[Any
     if not found:
         names = [kind.__name__ for kinds in _COMMANDS.values() for kind in kinds]
         said = "" if protocol == "auto" else f" with --protocol {protocol}"
-        raise UsageError(f"there is no command {name!r}{said}{near(name, names) or ': i7000 commands lists them'}")
+        hint = near(name, names) or ": i7000 commands lists them"
+        if not name.isidentifier():
+            hint = ": give its name; i7000 decode shows that of a frame"
+        raise UsageError(f"there is no command {name!r}{said}{hint}")
     return found
 
 

@@ -169,14 +169,15 @@ def restored_record(result: Restored) -> Record:
 
 
 def listed_lines(settings: Iterable[Setting], values: Mapping[str, Plain], unread: Mapping[str, str]) -> Iterator[Line]:
-    """Yield the settings of a module with their values, and what is allowed; for channels, that stands once."""
+    """Yield a table of the settings with their values, and what is allowed; for channels, that stands once."""
     rows = [
         (it, value_words(values[it.name], it.unit) if it.name in values else f"unknown: {unread[it.name]}")
         for it in settings
     ]
     names, held = (
-        max(map(len, column), default=0) for column in zip(*((it.name, value) for it, value in rows), strict=True)
+        max(map(len, column)) for column in zip(_HEADS[:2], *((it.name, value) for it, value in rows), strict=True)
     )
+    yield [(f"{_HEADS[0]:<{names}}  {_HEADS[1]:<{held}}  {_HEADS[2]}", "bold")]
     base = ""
     for it, value in rows:
         again, base = base == it.name.partition(".")[0], it.name.partition(".")[0]
@@ -186,6 +187,9 @@ def listed_lines(settings: Iterable[Setting], values: Mapping[str, Plain], unrea
         if it.hazard is Hazard.LOSES:
             line.append((f"  ({LOSES})", "yellow"))
         yield line
+
+
+_HEADS = "setting", "value", "allowed"
 
 
 def listed_record(setting: Setting, values: Mapping[str, Plain], unread: Mapping[str, str]) -> Record:
