@@ -23,6 +23,7 @@ from i7000 import (
 from i7000.device import factory
 from i7000.host.procedures.settings import settings_of
 from i7000.host.procedures.snapshot import Snapshot, snapshot
+from i7000.host.procedures.values import Choice
 from i7000.settings import BaudRate, LineSettings, ModbusDataFormat, ReportSettings
 from i7000.strategies.device import eeproms
 from i7000.strategies.settings import snapshots
@@ -337,3 +338,17 @@ def test_a_setting_is_there_by_its_name() -> None:
     assert PLAIN["address"] == 1
     assert "address" in PLAIN
     assert "filter" not in PLAIN
+
+
+@pytest.mark.parametrize("model", Model)
+@pytest.mark.parametrize("firmware", [None, "B4.4", "B3.8", "B3.0", "B2.6", "B2.5", "B1.0", "A0.0"])
+def test_a_snapshot_takes_every_value_that_a_module_of_any_firmware_can_have(
+    model: Model, firmware: str | None
+) -> None:
+    profile = Profile(model, firmware=None if firmware is None else Firmware(firmware), type_codes=())
+
+    for protocol in model.protocols:
+        for setting in settings_of(profile, protocol):
+            if isinstance(setting.values, Choice):
+                for plain, _ in setting.values.options:
+                    assert Snapshot(model, settings={setting.name: plain})[setting.name] == plain

@@ -272,7 +272,7 @@ def known_settings(model: Model) -> Mapping[str, Setting]:
     """
     modes = (True, False) if model in Availability.SERIES_7017Z.gates else (False,)
     found: dict[str, Setting] = {}
-    for firmware in (None, _OLDEST):
+    for firmware in (None, *_OLDER):
         for single_ended in modes:
             profile = Profile(model, firmware=firmware, single_ended=single_ended, type_codes=())
             for protocol in Protocol:
@@ -280,7 +280,8 @@ def known_settings(model: Model) -> Mapping[str, Setting]:
     return MappingProxyType(found)
 
 
-_OLDEST = Firmware("A0.0")
+_OLDER = (Firmware("B3.0"), Firmware("A0.0"))
+"""One with all types and, on models that have them for each channel now, one type for all channels; and the oldest."""
 
 
 def hazard_of(name: str) -> Hazard:
