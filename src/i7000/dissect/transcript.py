@@ -1,7 +1,7 @@
 """The lines of a log, in their order -> the frames in them, those that are cut over several lines put together.
 
 Laws: every line that is not blank is in exactly one piece, or, with several frames, in one piece a frame. A frame is
-put together only where nothing else can be made of its parts.
+put together only where nothing else can be made of its parts. The rows of a dump are a stream: `i7000.dissect.dump`.
 """
 
 import re
@@ -11,6 +11,7 @@ from typing import NamedTuple
 from i7000 import dcon, modbus
 from i7000.arguments import check_type
 from i7000.dissect.damage import in_place_of_a_frame, is_direction
+from i7000.dissect.dump import Dump, Row, read_row
 from i7000.dissect.finder import read_line, without_end
 from i7000.dissect.found import Found, Kind
 from i7000.dissect.in_bytes import frames_of
@@ -86,32 +87,83 @@ def pieces(lines: Iterable[tuple[int, str]], protocol: Protocol | None = None) -
 def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iterator[Piece]:
     marked = _Repeats().marked
     parts: list[_Part] = []
+    row: Row | None = None
+    dump: Dump | None = None
     for numbered in lines:
-        if not isinstance(numbered, tuple) or tuple(map(type, numbered)) != _NUMBERED:
-            raise ArgumentError("lines", numbered, "tuples of a number and a line (int and str)")
+        _check_numbered(numbered)
         number, line = numbered
         text = without_end(line) if line[-1:] == "\n" else line
         clean = _COLOUR.sub(_blanks, text) if "\x1b" in text else text
-        plain = find_plain(clean)
-        found: tuple[Found, ...] = ()
-        if plain is None:
-            found, wire, start = read_line(clean)
-            if wire and (parts or _begins(wire)):
-                part = _Part(number, text, found, wire, start)
-                if parts and not _goes_on(parts[-1], part):
+        if row is not None:
+            before, row = row, _next_row(number, clean, row)
+            if row is not None:
+                if dump is None:
                     yield from map(marked, _apart(parts, protocol))
-                    parts = []
-                parts.append(part)
-                yield from map(marked, _complete(parts, protocol))
+                    parts.clear()
+                    dump = _begun(before, protocol)
+                dump.add(row)
+                yield from map(marked, _dumped(dump, last=False))
                 continue
+            yield from map(marked, _ended(before, dump, parts, protocol))
+            dump = None
+        plain = find_plain(clean)
+        if plain is None:
+            row = read_row(number, clean)
+            if row is None:
+                yield from map(marked, _of_search(number, text, parts, protocol))
+            continue
         if parts:
             yield from map(marked, _apart(parts, protocol))
-            parts = []
-        if plain is None:
-            yield from map(marked, _of_line(number, text, found, protocol))
-        else:
-            yield marked(_new(Piece, (number, number, text, plain[0], plain[1], None)))
+            parts.clear()
+        yield marked(_new(Piece, (number, number, text, plain[0], plain[1], None)))
+    if row is not None:
+        yield from map(marked, _ended(row, dump, parts, protocol))
     yield from map(marked, _apart(parts, protocol))
+
+
+def _ended(row: Row, dump: Dump | None, parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
+    """Yield what is left of a dump; or what is in its only row, which is a line like any other then."""
+    return _of_search(row.number, row.text, parts, protocol) if dump is None else _dumped(dump, last=True)
+
+
+def _check_numbered(numbered: object) -> None:
+    if not isinstance(numbered, tuple) or tuple(map(type, numbered)) != _NUMBERED:
+        raise ArgumentError("lines", numbered, "tuples of a number and a line (int and str)")
+
+
+def _of_search(number: int, text: str, parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
+    """Search a line, and yield what is complete; a part of a frame is kept in `parts`."""
+    clean = _COLOUR.sub(_blanks, text) if "\x1b" in text else text
+    found, wire, start = read_line(clean)
+    if wire and (parts or _begins(wire)):
+        part = _Part(number, text, found, wire, start)
+        if parts and not _goes_on(parts[-1], part):
+            yield from _apart(parts, protocol)
+            parts.clear()
+        parts.append(part)
+        yield from _complete(parts, protocol)
+        return
+    if parts:
+        yield from _apart(parts, protocol)
+        parts.clear()
+    yield from _of_line(number, text, found, protocol)
+
+
+def _next_row(number: int, text: str, before: Row) -> Row | None:
+    """Return the row of a dump that goes on where the one before ends; None if the line is not that."""
+    row = read_row(number, text)
+    return row if row is not None and row.goes_on(before) else None
+
+
+def _begun(row: Row, protocol: Protocol | None) -> Dump:
+    dump = Dump(protocol)
+    dump.add(row)
+    return dump
+
+
+def _dumped(dump: Dump, *, last: bool) -> Iterator[Piece]:
+    for rows, kind, wire in dump.frames(last=last):
+        yield Piece(rows[0].number, rows[-1].number, "\n".join(row.text for row in rows), kind, wire)
 
 
 def _blanks(found: re.Match[str]) -> str:
