@@ -254,6 +254,14 @@ def test_no_capture_file_makes_it_raise(data: bytes) -> None:
     assert all(read.heard or read.missing for read in reads)
 
 
+@pytest.mark.parametrize("frames", [(b"$012\r", b"!010F0600\r", b"#010\r", b">+0025.1\r"), (REQUEST, RESPONSE) * 2])
+def test_a_frame_has_the_number_of_its_own_packet(frames: tuple[bytes, ...]) -> None:
+    reads = list(of_capture([pcap(*(record(frame) for frame in frames))], NOTHING, None))
+
+    assert [read.line for read in reads] == [1, 2, 3, 4]
+    assert [read.heard.answers.where for read in reads if read.heard and read.heard.answers] == ["packet 1", "packet 3"]
+
+
 # --- recordings -------------------------------------------------------------------------------------------------------
 
 BEGIN = Start("2026-11-30T12:00:00.000000+00:00", "i7000 listen", "1", "COM3")

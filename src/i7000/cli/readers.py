@@ -14,7 +14,7 @@ from attrs import evolve
 from i7000.dissect import Heard, Kind, Knowledge, Line, Piece, Place, flush, hear, hear_frame, pieces
 from i7000.dissect.capture import Damage, Packet, packets
 from i7000.dissect.repeats import sent
-from i7000.dissect.stream import looks_like
+from i7000.dissect.stream import looks_like, split
 from i7000.recording import Carried, Damaged, End, Start, read
 from i7000.settings import Protocol
 
@@ -224,6 +224,9 @@ def _of_packets(
         line, heard = hear(line, packet.wire, f"{word} {packet.number}", sent=packet.outbound)
         late = f"{word} {before.number}" if before and _is_late(before, packet) else None
         yield from (_frame(it, packet.number, packet, late) for it in heard)
+        if line.rest and _is_whole(line.rest, protocol):
+            line, heard = flush(line, f"{word} {packet.number}", sent=packet.outbound)
+            yield from (_frame(it, packet.number, packet, late) for it in heard)
         before = packet
     if before is not None:
         line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
@@ -233,6 +236,12 @@ def _of_packets(
 def _is_late(before: Packet, packet: Packet) -> bool:
     """Return whether the times of two packets go back."""
     return before.time is not None and packet.time is not None and packet.time < before.time
+
+
+def _is_whole(rest: bytes, protocol: Protocol | None) -> bool:
+    """Return whether bytes that could still become another frame are frames as they stand, as most packets are."""
+    spans, _ = split(rest, protocol, last=True)
+    return all(span.is_frame for span in spans)
 
 
 def _lost(packet: Packet) -> Iterator[str]:
