@@ -444,8 +444,11 @@ def test_a_silent_address_is_asked_by_both_protocols() -> None:
     assert {"protocol"} == set(unknown(found))
 
 
-@pytest.mark.parametrize("named", [refused, unanswered])
-def test_a_modbus_device_without_function_46_is_none_of_the_models(named: Any) -> None:
+@pytest.mark.parametrize(
+    ("named", "reason"),
+    [(unanswered, "does not answer function 46"), (refused, "function 46, sub-function 00 is refused: exception 01")],
+)
+def test_a_modbus_device_without_function_46_is_none_of_the_models(named: Any, reason: str) -> None:
     inputs = {modbus.ReadInputRegisters: lambda it: modbus.InputRegisters(it.address, (0,) * it.count)}
 
     found, steps = run(identify(0x01, protocols=[Protocol.MODBUS_RTU]), inputs | {modbus.ReadModuleName: named})
@@ -453,7 +456,7 @@ def test_a_modbus_device_without_function_46_is_none_of_the_models(named: Any) -
     assert Protocol.MODBUS_RTU is found.protocol
     assert (found.profile, found.candidates) == (None, ())
     assert {"name", "model", "types", "modbus_data_format", "data_format", "checksum"} <= set(unknown(found))
-    assert "does not answer function 46" in unknown(found)["model"]
+    assert reason in unknown(found)["model"]
     assert len(steps) <= 4
 
 

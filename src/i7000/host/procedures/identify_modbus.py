@@ -42,6 +42,8 @@ def identify_by_modbus(address: int, policy: Policy | None) -> Procedure[Identif
         version, no_version = yield from value("firmware", modbus.ReadFirmwareVersion(address), _PLAIN, policy)
     if name is None and version is None:
         reason = "the device does not answer function 46: it is another Modbus device, or answers were lost"
+        if isinstance(named.outcome, Declined):
+            reason = f"{outcome_words(named, _PLAIN)}: it is another Modbus device"
         nothing = Evidence.of((), reason)
         return Identified(
             address,
