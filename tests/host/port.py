@@ -64,7 +64,7 @@ class Port:
         return max(self._free_at, self._coming[0][0]) + self.character_time if self._coming else otherwise
 
     def wait(self, until: float) -> None:
-        """Let time pass until there is something to read, or until a time."""
+        """Move the time on until there is something to read, or until a time."""
         if not self.in_waiting:
             self.time = max(self.time, min(until, self._next_at(until)))
 

@@ -72,7 +72,7 @@ def ask(bus: Bus[Any], command: Query[Any], profile: Profile = M7019, now: float
 
 
 def go(bus: Bus[Any], now: float) -> tuple[Bus[Any], tuple[Event[Any], ...]]:
-    """Let the time pass on a silent line."""
+    """Move the time on, on a silent line."""
     return receive(bus, b"", now)
 
 

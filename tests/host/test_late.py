@@ -62,7 +62,7 @@ def value(response: Response) -> float | None:
 
 
 def check(requests: Any, outcomes: list[Outcome[Response]], seen: list[Observed]) -> None:
-    """Hold each value against the module that was asked."""
+    """Compare each value with the module that was asked."""
     wrong = [
         (number, outcome)
         for number, ((_, degrees), outcome) in enumerate(zip(cycle(requests), outcomes, strict=False))

@@ -19,13 +19,13 @@ from i7000.cli.outlet import Outlet, missed_words
 from i7000.cli.port import ended_by_signals, opened
 from i7000.cli.readers import Read
 from i7000.cli.recorded import RecordOptions, Write, recorded
-from i7000.cli.records import json_of
+from i7000.cli.records import frame_words, json_of
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
 from i7000.dissect import Direction, Line
 from i7000.dissect.timing import TimedHeard, TimedLine, flush_at, hear_at
 from i7000.recording import Carried
-from i7000.settings import LineSettings, Protocol
+from i7000.settings import LineSettings
 from i7000_cli import FAILED
 
 __all__ = ["Listener", "Listening", "run"]
@@ -70,15 +70,10 @@ class Listener:
                 self._write(Carried(it.began, heard.wire, sent, heard.protocol, None, it.notes))
             time = datetime.fromtimestamp(self._began + it.began, UTC)
             after = "" if it.after is None else f"+{it.after:.3f} s"
-            text = f"{time:%H:%M:%S}.{time.microsecond // 1000:03}  {after:>12}  {_ARROWS[sent]} {_frame(it)}"
+            frame = frame_words(heard.wire, heard.protocol)
+            text = f"{time:%H:%M:%S}.{time.microsecond // 1000:03}  {after:>12}  {_ARROWS[sent]} {frame}"
             number = heard.place.number
             yield Read(number, number, number, text, time.isoformat(), heard)
-
-
-def _frame(it: TimedHeard) -> str:
-    if it.heard.protocol is Protocol.DCON:
-        return it.heard.wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
-    return it.heard.wire.hex(" ").upper()
 
 
 # --- at a port --------------------------------------------------------------------------------------------------------

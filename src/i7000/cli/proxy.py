@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from i7000.cli.options import Texts
 from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
 from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
@@ -25,12 +26,8 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
     rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
     fault: Annotated[
-        tuple[str, ...],
-        Parameter(
-            help="A fault of the line, as for `i7000 simulate`; repeat it for each. Example: late=0.25:0.9@01.",
-            negative="",
-            show_default=False,
-        ),
+        Texts,
+        Parameter(help="A fault of the line, as for `i7000 simulate`; repeat it for each. Example: late=0.25:0.9@01."),
     ] = (),
     seed: Annotated[int, Parameter(help="Random seed for faults; the same seed and traffic repeat the faults.")] = 0,
     view: Annotated[Literal["lines", "none"], Parameter(help="lines shows what arrives on either side.")] = "none",

@@ -29,6 +29,7 @@ __all__ = [
     "Record",
     "command_record",
     "fault_words",
+    "frame_words",
     "json_of",
     "meaning_record",
     "parts_of",
@@ -87,7 +88,8 @@ def _head_json(read: Read) -> str:
     direction = _NULL if heard.direction is None else _quoted(heard.direction)
     return (
         f'{place}"protocol": "{_PROTOCOLS[heard.protocol]}", "direction": {direction}, '
-        f'"address": {_NULL if address is None else address}, "frame": {_quoted(_frame(heard))}, '
+        f'"address": {_NULL if address is None else address}, '
+        f'"frame": {_quoted(frame_words(heard.wire, heard.protocol))}, '
         f'"wire": "{heard.wire.hex()}", "answers": {_NULL if answers is None else answers.number}'
     )
 
@@ -135,11 +137,11 @@ def fault_words(error: DecodeError) -> str:
     return f"{error.fault.value}{field} at byte {error.offset}{allowed}{section}"
 
 
-def _frame(heard: Heard) -> str:
+def frame_words(wire: bytes, protocol: Protocol) -> str:
     """Return a frame as people write it."""
-    if heard.protocol is Protocol.MODBUS_RTU:
-        return heard.wire.hex(" ").upper()
-    return heard.wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
+    if protocol is Protocol.MODBUS_RTU:
+        return wire.hex(" ").upper()
+    return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
 
 
 _REMEMBERED = 256

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from i7000 import Profile, Protocol
 from i7000.cli.readers import Read
+from i7000.cli.records import frame_words
 from i7000.dissect import Heard, Knowledge, Known, Line, flush, hear, hear_frame
 from i7000.errors import Noise
 from i7000.host import Late, Rejected
@@ -56,15 +57,9 @@ class Traffic:
     def _keep(self, found: tuple[Heard, ...], at: float, *, sent: bool) -> None:
         for heard in found:
             after = f"+{at - self._began:.3f} s"
-            text = f"{after:>10}  {'->' if sent else '<-'} {_text(heard.wire, heard.protocol)}"
+            text = f"{after:>10}  {'->' if sent else '<-'} {frame_words(heard.wire, heard.protocol)}"
             number = heard.place.number
             self.reads.append(Read(number, number, number, text, None, heard))
-
-
-def _text(wire: bytes, protocol: Protocol) -> str:
-    if protocol is Protocol.DCON:
-        return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
-    return wire.hex(" ").upper()
 
 
 def event_notes(event: object, protocol: Protocol) -> Iterator[str]:
@@ -74,8 +69,8 @@ def event_notes(event: object, protocol: Protocol) -> Iterator[str]:
     ['late or duplicate, and dropped: !01']
     """
     if isinstance(event, Rejected):
-        yield f"not the response: {_text(event.wire, protocol)}: {event.reason}"
+        yield f"not the response: {frame_words(event.wire, protocol)}: {event.reason}"
     elif isinstance(event, Late):
-        yield f"late or duplicate, and dropped: {_text(event.wire, protocol)}"
+        yield f"late or duplicate, and dropped: {frame_words(event.wire, protocol)}"
     elif isinstance(event, Noise):
-        yield f"noise, or a damaged frame: {_text(event.wire, protocol)}"
+        yield f"noise, or a damaged frame: {frame_words(event.wire, protocol)}"
