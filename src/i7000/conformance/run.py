@@ -219,10 +219,9 @@ class _Run:
         result = yield from self._once(one.statement)
         if result.verdict not in _REPEATED or not one.statement.hazards <= _READS:
             return result
-        repeats = []
-        for _ in range(_MOST_REPEATS):
-            repeats.append((yield from self._once(one.statement)).verdict)
-        again = tuple(repeats)
+        again: tuple[Verdict, ...] = ()
+        while len(again) < _MOST_REPEATS:
+            again += ((yield from self._once(one.statement)).verdict,)
         verdict = result.verdict if set(again) == {result.verdict} else Verdict.FLAKY
         return evolve(result, verdict=verdict, repeats=again)
 
