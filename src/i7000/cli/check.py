@@ -18,12 +18,14 @@ def check(  # noqa: PLR0913 - each of them is an option
     ] = None,
     /,
     *select: Annotated[
-        str, Parameter(help="What to check: ids, groups such as dcon, patterns such as 'map/coil/*', sections such as 2.10.")
+        str,
+        Parameter(help="Ids of checks, groups such as dcon, patterns such as 'map/coil/*', sections such as 2.10."),
     ],
     list_: Annotated[bool, Parameter(name="--list", help="List the checks, and end.", negative="")] = False,
     explain: Annotated[str | None, Parameter(help="Explain a check, and end. Example: --explain link/alive.")] = None,
     allow: Annotated[
-        Texts, Parameter(help="Also send what could do harm: write, broadcast, comm or calibration; repeat it for each.")
+        Texts,
+        Parameter(help="Also send what could do harm: write, broadcast, comm or calibration; repeat it."),
     ] = (),
     confirm: Annotated[
         str | None, Parameter(help="The name of the module, as it answers it: --allow calibration needs it.")
@@ -33,16 +35,21 @@ def check(  # noqa: PLR0913 - each of them is an option
     ] = False,
     strict: Annotated[bool, Parameter(help="Let what is allowed but strange (WARN) fail too.", negative="")] = False,
     certify: Annotated[
-        bool, Parameter(help="Check everything, without a baseline, and say in one word whether all passed.", negative="")
+        bool,
+        Parameter(help="Check everything, without a baseline, and say in a word whether all passed.", negative=""),
     ] = False,
     baseline: Annotated[str | None, Parameter(help="A file with failures that are known; they do not count.")] = None,
-    baseline_update: Annotated[bool, Parameter(help="Write the failures of this run to --baseline.", negative="")] = False,
+    baseline_update: Annotated[
+        bool, Parameter(help="Write the failures of this run to --baseline.", negative="")
+    ] = False,
     report: Annotated[
         Texts, Parameter(help="Write a report: json=FILE, html=FILE, junit=FILE, pytest=FILE or pcap=FILE; repeat it.")
     ] = (),
     snapshot: Annotated[
         str | None,
-        Parameter(help="With --allow, the new file with the settings before the run. Default: i7000-NAME-ADDRESS-TIME.json."),
+        Parameter(
+            help="The new file for the settings before a run with --allow. Default: i7000-MODEL-ADDRESS-TIME.json."
+        ),
     ] = None,
     seed: Annotated[int, Parameter(help="Seed of what is random.")] = 0,
     max_time: Annotated[str | None, Parameter(help="Begin no check after this time: 30s, 5min.")] = None,

@@ -23,6 +23,7 @@ from i7000.cli.durations import seconds
 from i7000.cli.module import named
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
+from i7000.cli.records import frame_words
 from i7000.cli.snapshot_file import check_new, write_new
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import LineError, UsageError
@@ -34,7 +35,6 @@ from i7000.conformance.settle import Settled, settle
 from i7000.conformance.statement import Statement, statements
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
-from i7000.dissect.words import frame_words
 from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, Observed, Received, VirtualPort, Written
 from i7000.link.guarded import GuardedPort
@@ -45,8 +45,15 @@ _INTERRUPTED = 128 + signal.SIGINT
 _LARGEST_BASELINE = 1 << 20
 _SCALES = 0.1, 100.0
 _MOST_WRITES = 10_000
-_ASKED_FOR = {"write": Hazard.WRITE, "broadcast": Hazard.BROADCAST, "comm": Hazard.COMM, "calibration": Hazard.CALIBRATION}
+_ASKED_FOR = {
+    "write": Hazard.WRITE,
+    "broadcast": Hazard.BROADCAST,
+    "comm": Hazard.COMM,
+    "calibration": Hazard.CALIBRATION,
+}
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
+_SIMULATED = "sim:"
+"""The targets whose time is virtual: they take none."""
 _KINDS = ("json", "html", "junit", "pytest", "pcap")
 
 
@@ -121,7 +128,7 @@ def _allowed(wishes: Wishes) -> frozenset[Hazard]:
             raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
         hazards.append(_ASKED_FOR[text])
     if Hazard.COMM in hazards and not wishes.can_power_cycle:
-        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power off and on")
+        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
     if Hazard.CALIBRATION in hazards and wishes.confirm is None:
         raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
     return allowing(hazards)
@@ -165,8 +172,9 @@ def _baseline(wishes: Wishes) -> frozenset[str]:
         document = json.loads(data) if len(data) <= _LARGEST_BASELINE else None
     except (ValueError, RecursionError):
         document = None
-    failures = document.get("failures") if isinstance(document, dict) else None
-    if not isinstance(failures, dict) or document.get("schema_version") != 1:
+    document = document if isinstance(document, dict) and document.get("schema_version") == 1 else {}
+    failures = document.get("failures")
+    if not isinstance(failures, dict):
         raise UsageError(f"{file}: this is not a baseline: write one with --baseline-update")
     unknown = sorted(set(failures) - set(statements()))
     if unknown:
@@ -197,7 +205,15 @@ def listed(select: tuple[str, ...]) -> int:
     for statement in statements().values():
         if statement.id in ids:
             hazards = ",".join(hazard.value for hazard in Hazard if hazard in statement.hazards)
-            printer.lines([[(f"{statement.id:{width}}", "cyan"), (f"  {statement.level.value:8} {hazards:9} ", ""), (statement.title, "")]])
+            printer.lines(
+                [
+                    [
+                        (f"{statement.id:{width}}", "cyan"),
+                        (f"  {statement.level.value:8} {hazards:9} ", ""),
+                        (statement.title, ""),
+                    ]
+                ]
+            )
     return 0
 
 
@@ -214,13 +230,19 @@ def explained(text: str) -> int:
     return 0
 
 
+_PROTOCOLS = {None: "", Protocol.DCON: "DCON", Protocol.MODBUS_RTU: "Modbus RTU"}
+
+
 def _explanation(statement: Statement) -> list[Line]:
     rows = [
         ("requirement", statement.requirement),
         ("sections", ", ".join(statement.sections)),
         ("level", statement.level.value),
         ("sends", ", ".join(hazard.value for hazard in Hazard if hazard in statement.hazards) or "plain reads"),
-        ("protocol", "" if statement.protocol is None else {Protocol.DCON: "DCON"}.get(statement.protocol, "Modbus RTU")),
+        (
+            "protocol",
+            _PROTOCOLS[statement.protocol],
+        ),
         ("command", statement.command or ""),
         ("function", statement.function or ""),
         ("register", statement.register or ""),
@@ -246,7 +268,7 @@ def run(asked: Asked, wishes: Wishes) -> int:
     def body(open_line: OpenLine) -> int:
         return _Checking(asked, wishes, settings, printer, wire).examine(open_line)
 
-    return at_port(asked, body, wire.observe, guarded=settings.options.allowed)
+    return at_port(asked, body, wire.observe, allowed=settings.options.allowed)
 
 
 @define
@@ -289,7 +311,7 @@ class _Checking:
         with ExitStack() as stack:
             self._open_reports(stack)
             self._begin(before, there, open_line, planned)
-            self._estimate(open_line, one, eeprom)
+            self._estimate(one, eeprom)
             return self._carry_out(open_line, one, before)
 
     def _check_name(self, before: Snapshot) -> None:
@@ -307,9 +329,9 @@ class _Checking:
         write_new(path, before.to_json())
         self._printer.note(f"the settings of {there.words} are in {path}")
 
-    def _estimate(self, open_line: OpenLine, one: Run, eeprom: Eeprom) -> None:
+    def _estimate(self, one: Run, eeprom: Eeprom) -> None:
         """Say how long the run will take: as long as on a simulated module, in virtual time."""
-        if isinstance(open_line.port, VirtualPort):
+        if self._asked.target.startswith(_SIMULATED):
             return
         from i7000.link import Line as PortLine  # noqa: PLC0415 - a dry run needs a line of its own
 
@@ -327,7 +349,7 @@ class _Checking:
     def _open_reports(self, stack: ExitStack) -> None:
         for kind, path in self._settings.reports:
             if kind == "json":
-                self._file = stack.enter_context(Path(path).open("w", encoding="ascii"))
+                self._file = stack.enter_context(open(path, "w", encoding="ascii"))  # noqa: PTH123, SIM115
 
     def _begin(self, before: Snapshot, there: Reached, open_line: OpenLine, planned: Iterable[Planned]) -> None:
         self._record(
@@ -407,7 +429,7 @@ class _Checking:
         try:
             return open_line.line.run(settle(before, one.place, one.line))
         except (LinkError, KeyboardInterrupt) as error:
-            self._printer.error(f"the module could not be restored: {error or 'stopped'}")
+            self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None
 
     # --- what people see ------------------------------------------------------------------------------------------
@@ -477,4 +499,4 @@ def _details(result: CheckResult) -> list[Line]:
 
 
 def _bytes(wire: bytes) -> str:
-    return frame_words(wire)
+    return frame_words(wire, Protocol.DCON) if wire.endswith(b"\r") else wire.hex(" ").upper()
