@@ -23,7 +23,7 @@ from i7000.profile import Profile
 from i7000.readings import Reading, Status
 from i7000.settings import Protocol
 
-__all__ = ["Answer", "Twin", "difference", "eeprom_of"]
+__all__ = ["Answer", "Twin", "difference", "eeprom_of", "rows_of"]
 
 
 # --- the settings of a snapshot ---------------------------------------------------------------------------------------
@@ -163,6 +163,8 @@ def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: 
 
 # --- DCON -------------------------------------------------------------------------------------------------------------
 
+_BLANK = series("7019")
+"""The models whose disabled channels are blanks (E25)."""
 _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon.CjcUpdateSetting)
 """The responses that depend on what the module measures or remembers since its power-on."""
 
@@ -180,7 +182,10 @@ def _dcon_difference(answer: Answer, response: Response, expected: Response) -> 
     return _fields_difference(response, expected)
 
 
-def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int]) -> str | None:
+def _readings_difference(
+    answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int], *, words: bool = False
+) -> str | None:
+    """Compare readings by their shape; what a disabled channel has is known of the fields of a few models only (E25)."""
     if answer.profile.type_codes:
         try:
             readings = read()
@@ -188,8 +193,11 @@ def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], 
             return str(error)
         for channel, reading in zip(channels, readings, strict=True):
             disabled = not answer.enabled >> channel & 1
-            if disabled is not (reading.status is Status.DISABLED):
-                return f"channel {channel} is {'disabled, but not' if disabled else 'enabled, but'} blank"
+            blank = reading.status is Status.DISABLED
+            if disabled and not blank and answer.profile.model in _BLANK and not words:
+                return f"channel {channel} is disabled, but not blank"
+            if blank and not disabled:
+                return f"channel {channel} is enabled, but blank"
     return None
 
 
@@ -232,20 +240,27 @@ def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | No
 
 
 def _place(profile: Profile, area: Area, address: int) -> tuple[Register, int] | None:
-    for row in _rows(evolve(profile, type_codes=())):
+    for row in rows_of(profile):
         if row.area is area and row.address <= address < row.address + row.count:
             return row, address - row.address
     return None
 
 
+def rows_of(profile: Profile) -> tuple[Register, ...]:
+    """Return the rows of the address map of a module."""
+    return _rows_of(evolve(profile, type_codes=()))
+
+
 @lru_cache(maxsize=64)
-def _rows(profile: Profile) -> tuple[Register, ...]:
+def _rows_of(profile: Profile) -> tuple[Register, ...]:
     return tuple(modbus.RegisterMap(profile))
 
 
 def _item_difference(answer: Answer, row: Register, item: int, value: int) -> str | None:
-    if row.kind is Kind.READING and answer.profile.type_codes:
-        return _readings_difference(answer, lambda: modbus.readings((value,), answer.profile, channel=item), (item,))
+    if row.kind is Kind.READING and item < len(answer.profile.type_codes):
+        return _readings_difference(
+            answer, lambda: modbus.readings((value,), answer.profile, channel=item), (item,), words=True
+        )
     number = value - 0x10000 if row.kind is Kind.INT16 and value > 0x7FFF else value
     if row.minimum is not None and row.maximum is not None and not row.minimum <= number <= row.maximum:
         return f"{row.name} is {number}, beyond {row.minimum}..{row.maximum}"
