@@ -185,7 +185,7 @@ def _dcon_difference(answer: Answer, response: Response, expected: Response) -> 
 def _readings_difference(
     answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int], *, words: bool = False
 ) -> str | None:
-    """Compare readings by their shape; what a disabled channel has is known of the fields of a few models only (E25)."""
+    """Compare readings by their shape; what a disabled channel has is known of the fields of few models only (E25)."""
     if answer.profile.type_codes:
         try:
             readings = read()
