@@ -101,10 +101,11 @@ def _head(report: Report, title: str) -> Iterator[str]:
         words, kind = f"INCOMPLETE: {words}", "warn" if kind == "pass" else kind
     yield f"<h1>{escape(title)}</h1>"
     start = report.start
+    allowed = ", ".join(map(str, start.get("allowed") or ()))
+    versions = f"i7000 {_of(start, 'version')}; manual {_of(start, 'manual')}"
     facts = (
         f"firmware {_of(report.module, 'firmware')}, {_of(report.module, 'protocol')}, {_of(start, 'target')}",
-        f"{_of(start, 'time')}; i7000 {_of(start, 'version')}; manual {_of(start, 'manual')}; seed {_of(start, 'seed')};"
-        f" allowed: {', '.join(map(str, start.get('allowed') or ()))}",
+        f"{_of(start, 'time')}; {versions}; seed {_of(start, 'seed')}; allowed: {allowed}",
         f"SHA-256 of spec: {_of(start, 'spec_sha256')}",
     )
     yield from (f'<p class="soft">{escape(fact)}</p>' for fact in facts)
@@ -155,7 +156,8 @@ def _matrix(report: Report) -> Iterator[str]:
 def _mark(check: Checked) -> str:
     kind = _CLASSES.get(check.verdict, "warn")
     words = escape(f"{check.id}: {check.verdict}", quote=True)
-    return f'<a class="{kind}" href="#{_anchor(check.id)}" title="{words}" aria-label="{words}">{_MARKS.get(kind, "!")}</a> '
+    link = f'<a class="{kind}" href="#{_anchor(check.id)}" title="{words}" aria-label="{words}">'
+    return f"{link}{_MARKS.get(kind, '!')}</a> "
 
 
 def _in_order(section: str) -> list[tuple[int, int, str]]:
@@ -244,10 +246,8 @@ def _log(frames: Iterable[Frame]) -> Iterator[str]:
     yield '<table class="log"><tr><th>s</th><th>from</th><th>bytes</th><th>what it means</th></tr>'
     for frame in shown[:_MOST_FRAMES]:
         who = "host" if frame.sent else "module"
-        yield (
-            f'<tr><td class="at">{frame.seconds:.3f}</td><td>{who}</td><td class="wire">{escape(_wire(frame.wire))}</td>'
-            f"<td>{escape(frame.words)}</td></tr>"
-        )
+        yield f'<tr><td class="at">{frame.seconds:.3f}</td><td>{who}</td>'
+        yield f'<td class="wire">{escape(_wire(frame.wire))}</td><td>{escape(frame.words)}</td></tr>'
     yield "</table>"
     if len(shown) > _MOST_FRAMES:
         yield f"<p class=soft>and {len(shown) - _MOST_FRAMES} more</p>"
