@@ -24,12 +24,13 @@ from i7000.cli.module import named
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
 from i7000.cli.records import frame_words
+from i7000.cli.report_files import KINDS, MADE, write_report
 from i7000.cli.snapshot_file import check_new, write_new
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance.hazard import Hazard, allowing
 from i7000.conformance.oracle import eeprom_of
-from i7000.conformance.records import Digest, check_record, end_record, start_record, wire_record
+from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
 from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run, exit_code, plan, selected
 from i7000.conformance.settle import Settled, settle
 from i7000.conformance.statement import Statement, statements
@@ -54,7 +55,6 @@ _ASKED_FOR = {
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _SIMULATED = "sim:"
 """The targets whose time is virtual: they take none."""
-_KINDS = ("json", "html", "junit", "pytest", "pcap")
 
 
 @frozen(kw_only=True)
@@ -142,8 +142,8 @@ def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
     found = []
     for text in texts:
         kind, equals, file = text.partition("=")
-        if kind not in _KINDS or not equals or not file:
-            raise UsageError(f"--report {text}: give KIND=FILE; kinds are {', '.join(_KINDS)}")
+        if kind not in KINDS or not equals or not file:
+            raise UsageError(f"--report {text}: give KIND=FILE; kinds are {', '.join(KINDS)}")
         with Path(file).open("a", encoding="utf-8"):
             pass
         found.append((kind, file))
@@ -374,8 +374,8 @@ class _Checking:
         if isinstance(observed, Received | Written):
             if self._began is None:
                 self._began = observed.at
-            sent = isinstance(observed, Written)
-            self._record(wire_record(self._check, observed.at - self._began, observed.data, sent=sent))
+            sent, seconds = isinstance(observed, Written), observed.at - self._began
+            self._record(wire_record(self._check, seconds, observed.data, sent=sent))
 
     def _record(self, record: dict[str, Any]) -> None:
         self._records.append(record)
@@ -390,6 +390,11 @@ class _Checking:
         if self._file:
             self._file.write(text + "\n")
             self._file.flush()
+        made = [(kind, path) for kind, path in self._settings.reports if kind in MADE]
+        if made:
+            lines = [*map(as_line, self._records[:-1]), text]
+            for kind, path in made:
+                write_report(lines, kind, path)
 
     # --- the run --------------------------------------------------------------------------------------------------
 

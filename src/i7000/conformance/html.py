@@ -35,13 +35,15 @@ _STYLE = """
 body { margin: 0 auto; padding: 1.5rem; max-width: 70rem; background: var(--paper); color: var(--ink);
   font: 16px/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.6rem; margin: 0 0 .25rem; } h2 { font-size: 1.2rem; margin: 2rem 0 .5rem; }
-p { margin: .25rem 0; } a { color: inherit; }
+p { margin: .25rem 0; overflow-wrap: anywhere; } a { color: inherit; }
 .soft { color: var(--soft); } .mono, code, td.wire { font-family: ui-monospace, monospace; font-size: .9em; }
-.banner { border-left: .4rem solid var(--pass); background: var(--card); padding: .75rem 1rem; margin: 1rem 0; }
+.banner { border-left: .4rem solid var(--pass); background: var(--card); padding: .75rem 1rem; margin: 1rem 0;
+  color: var(--ink); }
 .banner.fail { border-color: var(--fail); } .banner.warn { border-color: var(--warn); }
 .banner b { font-size: 1.15rem; }
 table { border-collapse: collapse; width: 100%; } th, td { text-align: left; vertical-align: top; padding: .3rem .5rem;
-  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; } th { font-weight: 600; }
+  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+th { font-weight: 600; overflow-wrap: normal; } .facts th { width: 8rem; }
 .scroll { overflow-x: auto; }
 .v { font-weight: 600; white-space: nowrap; } .pass { color: var(--pass); } .fail { color: var(--fail); }
 .warn { color: var(--warn); } .info { color: var(--info); } .skip { color: var(--skip); }
@@ -53,8 +55,8 @@ summary { cursor: pointer; padding: .4rem .6rem; display: flex; gap: .6rem; flex
 summary .v { min-width: 8.5rem; } summary .id { font-family: ui-monospace, monospace; font-size: .9em;
   overflow-wrap: anywhere; } .body { padding: 0 .8rem .8rem; }
 @media (max-width: 40rem) { body { padding: .75rem; font-size: 15px; } summary .v { min-width: 0; }
-  td.at { display: none; } .log tr { display: block; border-bottom: 1px solid var(--line); } .log td { display: block;
-  border: 0; padding: .1rem .3rem; } .log th { display: none; } }
+  .log tr { display: block; border-bottom: 1px solid var(--line); } .log td { display: block;
+  border: 0; padding: .1rem .3rem; } .log th, .log td.at { display: none; } }
 @media print { body { max-width: none; font-size: 11px; } details { break-inside: avoid; border: 0; }
   .matrix { grid-template-columns: repeat(6, 1fr); } }
 """
@@ -88,6 +90,11 @@ def _address(report: Report) -> str:
     return f"{address:02X}" if isinstance(address, int) else "unknown"
 
 
+def _protocol(report: Report) -> str:
+    protocol = _of(report.module, "protocol")
+    return {"dcon": "DCON", "modbus_rtu": "Modbus RTU"}.get(protocol, protocol)
+
+
 def _head(report: Report, title: str) -> Iterator[str]:
     counts = Counter(check.verdict for check in report.checks)
     bad = sum(counts[verdict] for verdict in _OPEN)
@@ -104,7 +111,7 @@ def _head(report: Report, title: str) -> Iterator[str]:
     allowed = ", ".join(map(str, start.get("allowed") or ()))
     versions = f"i7000 {_of(start, 'version')}; manual {_of(start, 'manual')}"
     facts = (
-        f"firmware {_of(report.module, 'firmware')}, {_of(report.module, 'protocol')}, {_of(start, 'target')}",
+        f"firmware {_of(report.module, 'firmware')}, {_protocol(report)}, {_of(start, 'target')}",
         f"{_of(start, 'time')}; {versions}; seed {_of(start, 'seed')}; allowed: {allowed}",
         f"SHA-256 of spec: {_of(start, 'spec_sha256')}",
     )
@@ -213,8 +220,11 @@ def _check(check: Checked) -> Iterator[str]:
         (name, check[name]) for name in ("text", "reason", "sent", "received", "expected") if check[name] is not None
     ]
     if rows:
-        yield "<table>"
-        yield from (f"<tr><th>{name}</th><td>{escape(_shown(name, str(value)))}</td></tr>" for name, value in rows)
+        yield '<table class="facts">'
+        yield from (
+            f"<tr><th>{'why' if name == 'text' else name}</th><td>{escape(_shown(name, str(value)))}</td></tr>"
+            for name, value in rows
+        )
         yield "</table>"
     yield from _log(check.frames)
     yield "</div></details>"

@@ -22,6 +22,7 @@ __all__ = [
     "MANUAL",
     "SCHEMA_VERSION",
     "Digest",
+    "as_line",
     "check_record",
     "end_record",
     "spec_digest",
@@ -153,6 +154,11 @@ def end_record(
     }
 
 
+def as_line(record: Mapping[str, Any]) -> str:
+    """Return a record as a line, without its end."""
+    return _json(record)
+
+
 class Digest:
     """The lines of a report with their SHA-256, as they are written."""
 
@@ -161,10 +167,10 @@ class Digest:
 
     def line(self, record: Mapping[str, Any]) -> str:
         """Return a record as a line, without its end."""
-        text = _json(record)
+        text = as_line(record)
         self._digest.update(text.encode() + b"\n")
         return text
 
     def last(self, record: Mapping[str, Any]) -> str:
         """Return the last record as a line with the digest of the lines before it."""
-        return _json({**record, "digest": self._digest.hexdigest()})
+        return as_line({**record, "digest": self._digest.hexdigest()})
