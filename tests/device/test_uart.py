@@ -59,7 +59,7 @@ def test_modules_with_other_settings_receive_the_levels_in_the_middle_of_their_b
 
 
 def test_a_spike_does_not_shift_what_is_sampled_after_it() -> None:
-    assert b"\xff" == hear_at(b"\xff\x00", Uart(115200), Uart(9600))
+    assert hear_at(b"\xff\x00", Uart(115200), Uart(9600)) == b"\xff"
 
 
 @given(st.binary(max_size=40), UARTS)
