@@ -4,7 +4,8 @@ Laws: an end with the same settings receives what was sent. Another end receives
 line at its own speed. It drops characters with a wrong parity or stop bit.
 """
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 
 from attrs import field
@@ -121,13 +122,6 @@ def _characters(uart: Uart) -> tuple[bytes, ...]:
     return tuple(found)
 
 
-_FALL = b"\1\0"
-_NO_START = -2
-"""In place of a character: the level was high again in the middle of the start bit."""
-_DAMAGED = -1
-"""In place of a character: its parity or its stop bit is wrong."""
-
-
 @lru_cache(maxsize=1024)
 def receiver(sent: Uart, heard: Uart) -> Callable[[bytes], bytes]:
     """Return the function that makes what an end with settings `heard` receives from the `levels_of` another end."""
@@ -138,23 +132,50 @@ def receiver(sent: Uart, heard: Uart) -> Callable[[bytes], bytes]:
     length = -((1 - 2 * count) * rate // (2 * heard.rate))
 
     @lru_cache(maxsize=8192)
-    def character(levels: bytes) -> int:
+    def character(levels: bytes) -> int | None:
         size = len(levels)
-        start, *bits = [at >= size or levels[at] for at in samples]
-        if start:
-            return _NO_START
+        _, *bits = [at >= size or levels[at] for at in samples]
         value = sum(bit << at for at, bit in enumerate(bits[: heard.data_bits]))
         right = bits[-1] and (heard.parity == "N" or bits[-2] == heard.parity_bit(value))
-        return value if right else _DAMAGED
+        return value if right else None
+
+    found = _finder(samples[0], samples[-1] + 1, length)
 
     def receive(levels: bytes) -> bytes:
-        found = []
-        start = levels.find(_FALL) + 1
-        while start:
-            value = character(levels[start : start + width])
-            if value >= 0:
-                found.append(value)
-            start = levels.find(_FALL, start if value == _NO_START else start + length - 1) + 1
-        return bytes(found)
+        return bytes([value for value in map(character, found(levels)) if value is not None])
 
     return receive
+
+
+def _finder(start_bit: int, width: int, length: int) -> Callable[[bytes], Iterable[bytes]]:
+    """Return the function that finds the characters on a line, as the `width` levels from the edge of the start bit on.
+
+    Shape: a character whose level is high again at `start_bit` is a spike; the next can begin at its next edge. After
+        others, the next can begin `length` levels later.
+    """
+    if width > _WIDEST:
+        return lambda levels: _found_slowly(levels, start_bit, width, length)
+    spike = f"(?=\0.{{{start_bit - 1}}}(?:\1|$))|(?=\0.{{,{start_bit - 1}}}$)|" if start_bit else ""
+    after = f".{{,{length - 2}}}" if length > 1 else ""
+    pattern = re.compile(f"\1(?:{spike}(?=(\0.{{,{width - 1}}}))\0{after})".encode(), re.DOTALL)
+
+    def found(levels: bytes) -> Iterable[bytes]:
+        return filter(None, pattern.findall(levels))
+
+    return found
+
+
+_WIDEST = 1000
+"""The widest character that is found by a pattern."""
+
+
+def _found_slowly(levels: bytes, start_bit: int, width: int, length: int) -> Iterator[bytes]:
+    start = levels.find(_FALL) + 1
+    while start:
+        spike = start + start_bit >= len(levels) or levels[start + start_bit]
+        if not spike:
+            yield levels[start : start + width]
+        start = levels.find(_FALL, start if spike else start + length - 1) + 1
+
+
+_FALL = b"\1\0"
