@@ -220,7 +220,9 @@ def drawn(chance: Random, number: int, wire: bytes | None = None) -> Case:
         if wire is None and chance.random() < 0.7:
             wire = whole[cut:] if chance.random() < 0.5 else whole[cut:] + miss()
     if wire is None and not combination.same_line and chance.random() < 0.3:
-        faster = {rate: other for other in BaudRate for rate in BaudRate if other.bits_per_second == 2 * rate.bits_per_second}
+        faster = {
+            rate: other for other in BaudRate for rate in BaudRate if other.bits_per_second == 2 * rate.bits_per_second
+        }
         if effective.baud_rate in faster and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82):
             host = LineSettings(faster[effective.baud_rate])
             wire = near_misses.half_as_fast(chance, chance.choice(near_misses.SLOW_COMMANDS))

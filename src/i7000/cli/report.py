@@ -10,7 +10,7 @@ from i7000.cli.words import UsageError
 __all__ = ["report"]
 
 
-def report(
+def report(  # noqa: PLR0913 - each of them is an option
     run: Annotated[str, Parameter(help="A file of i7000 check --report json=FILE.")],
     /,
     *,

@@ -115,12 +115,7 @@ def _words(check: Checked, report: Report) -> Iterator[str]:
 
 def _printable(text: str) -> str:
     """Return a text in characters that XML can have."""
-    return "".join(
-        it
-        if it in _ALLOWED_CONTROLS or "\x20" <= it <= "\ud7ff" or "\ue000" <= it <= "\ufffd" or it > "\uffff"
-        else "?"
-        for it in text
-    )
+    return _UNPRINTABLE.sub("?", text)
 
 
 # --- pytest -----------------------------------------------------------------------------------------------------------

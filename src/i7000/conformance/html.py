@@ -221,10 +221,9 @@ def _check(check: Checked) -> Iterator[str]:
     ]
     if rows:
         yield '<table class="facts">'
-        yield from (
-            f"<tr><th>{'why' if name == 'text' else name}</th><td>{escape(_shown(name, str(value)))}</td></tr>"
-            for name, value in rows
-        )
+        for name, value in rows:
+            shown = escape(_shown(name, str(value)))
+            yield f"<tr><th>{'why' if name == 'text' else name}</th><td>{shown}</td></tr>"
         yield "</table>"
     yield from _log(check.frames)
     yield "</div></details>"
