@@ -40,7 +40,7 @@ from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, Observed, Received, VirtualPort, Written
 from i7000.link.guarded import GuardedPort
 
-__all__ = ["Wishes", "explained", "listed", "run"]
+__all__ = ["Wishes", "allowed_of", "explained", "listed", "run"]
 
 _INTERRUPTED = 128 + signal.SIGINT
 _LARGEST_BASELINE = 1 << 20
@@ -121,17 +121,26 @@ def _settings(wishes: Wishes) -> Settings:
     return Settings(ids, options, _reports(wishes.reports), _baseline(wishes))
 
 
-def _allowed(wishes: Wishes) -> frozenset[Hazard]:
+def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:
+    """Return what the texts of --allow allow.
+
+    Errors: `UsageError`.
+    """
     hazards = []
-    for text in wishes.allow:
+    for text in texts:
         if text not in _ASKED_FOR:
             raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
         hazards.append(_ASKED_FOR[text])
-    if Hazard.COMM in hazards and not wishes.can_power_cycle:
-        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
-    if Hazard.CALIBRATION in hazards and wishes.confirm is None:
-        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
     return allowing(hazards)
+
+
+def _allowed(wishes: Wishes) -> frozenset[Hazard]:
+    allowed = allowed_of(wishes.allow)
+    if Hazard.COMM in allowed and not wishes.can_power_cycle:
+        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
+    if Hazard.CALIBRATION in allowed and wishes.confirm is None:
+        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
+    return allowed
 
 
 def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
