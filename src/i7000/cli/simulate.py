@@ -71,10 +71,11 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       2,000,000 rows and 200 MB.
     * Faults of bytes, each with a probability P: `drop=P`, `flip=P` of a bit, `noise=P` before them. Faults of
       responses: `late=P[:SECONDS]` (0.3 s), `silent=P`, `truncate=P`, `duplicate=P`, `misaddress=P` (the address of
-      another module), `misfunction=P` (another function code; `!AA` for `>`), `replay=P` (the response to an earlier
-      request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception with CODE, 4), `corrupt=P` (one bit is flipped),
-      `lookalike=P` (a shorter frame with a good checksum before it), `trailing=P` (00 after it), `split=P[:SECONDS]`
-      (in two pieces, 0.05 s apart). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+      another module), `replay=P` (the response to an earlier request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception
+      with CODE, 4). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * More faults of responses: `misfunction=P` (another function code; `!AA` for `>`), `corrupt=P` (one bit is
+      flipped), `lookalike=P` (a shorter frame with a good checksum before it), `trailing=P` (00 after it),
+      `split=P[:SECONDS]` (in two pieces, 0.05 s apart).
     * After a fault, `@to` limits it to requests, `@from` to responses, and `@01` to the responses of address 01:
       `drop=0.01@to`, `late=0.25:0.9@01`, `silent=1@02`. A fault with `@` replaces the same fault without it.
     * The file of `--eeprom` is created if it does not exist. If it does, the modules have the settings stored in it,
