@@ -226,7 +226,7 @@ SCENARIOS = (
     ),
     Scenario(
         "sentinels",
-        "readings that are no values",
+        "channels without a value",
         "Every other channel is over range, then under range, then has an open wire.",
         "It reports over range and under range as such, never as a number.",
         ("1.11", "2.3", "E48", "E50"),
