@@ -46,8 +46,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "codecs", "collections", "contextlib", "decimal", "enum", "functools", "itertools", "json", "linecache",
-    "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "bisect", "codecs", "collections", "contextlib", "decimal", "enum", "functools", "itertools", "json",
+    "linecache", "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 
