@@ -17,7 +17,7 @@ from typing import IO, Any
 
 from attrs import define, frozen
 
-from i7000 import InvalidValueError, Protocol
+from i7000 import InvalidValueError, Protocol, spec
 from i7000.cli.asked import LEFT_CHANGED, Asked
 from i7000.cli.durations import seconds
 from i7000.cli.module import named
@@ -33,7 +33,7 @@ from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
 from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run, exit_code, plan, selected
 from i7000.conformance.settle import Settled, settle
-from i7000.conformance.statement import Statement, statements
+from i7000.conformance.statement import Statement
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
 from i7000.host.procedures import Snapshot, snapshot
@@ -97,7 +97,7 @@ def _settings(wishes: Wishes) -> Settings:
     if wishes.certify and (wishes.select or wishes.baseline):
         raise UsageError("--certify checks everything: leave out the selection and --baseline")
     try:
-        ids = selected(wishes.select)
+        ids = selected(spec.statements(), wishes.select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     low, high = _SCALES
@@ -185,7 +185,7 @@ def _baseline(wishes: Wishes) -> frozenset[str]:
     failures = document.get("failures")
     if not isinstance(failures, dict):
         raise UsageError(f"{file}: this is not a baseline: write one with --baseline-update")
-    unknown = sorted(set(failures) - set(statements()))
+    unknown = sorted(set(failures) - set(spec.statements()))
     if unknown:
         raise UsageError(f"{file}: there is no check {unknown[0]}")
     return frozenset(failures)
@@ -206,12 +206,12 @@ def _write_baseline(path: str, results: Iterable[CheckResult]) -> None:
 def listed(select: tuple[str, ...]) -> int:
     """List the checks, one a line; return the exit code."""
     try:
-        ids = selected(select)
+        ids = selected(spec.statements(), select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     printer = Printer()
     width = max(map(len, ids))
-    for statement in statements().values():
+    for statement in spec.statements().values():
         if statement.id in ids:
             hazards = ",".join(hazard.value for hazard in Hazard if hazard in statement.hazards)
             printer.lines(
@@ -229,12 +229,12 @@ def listed(select: tuple[str, ...]) -> int:
 def explained(text: str) -> int:
     """Explain a check; return the exit code."""
     try:
-        ids = selected([text])
+        ids = selected(spec.statements(), [text])
     except InvalidValueError as error:
         raise UsageError(error) from None
     if text not in ids:
         raise UsageError(f"--explain {text}: give one id; see i7000 check --list {text}")
-    printer, statement = Printer(), statements()[text]
+    printer, statement = Printer(), spec.statements()[text]
     printer.lines(_explanation(statement))
     return 0
 
@@ -314,7 +314,8 @@ class _Checking:
         self._check_name(before)
         eeprom = eeprom_of(before)
         profile = power_on(eeprom, now=0.0).profile
-        planned = plan(self._settings.ids, profile, there.protocol, options.allowed)
+        chosen = [it for it in spec.statements().values() if it.id in self._settings.ids]
+        planned = plan(chosen, profile, there.protocol, options.allowed)
         self._keep(before, there)
         one = Run(planned, eeprom, options, line=open_line.line.line, checksum=there.profile.checksum)
         with ExitStack() as stack:
@@ -364,6 +365,7 @@ class _Checking:
         self._record(
             start_record(
                 version=version("i7000"),
+                spec_sha256=spec.digest(),
                 time=datetime.now(UTC).isoformat(),
                 target=self._asked.target,
                 seed=self._wishes.seed,
