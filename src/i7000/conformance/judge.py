@@ -1,0 +1,392 @@
+"""The judgement of a line in operation: what driver and modules owe each other, from what was heard of them.
+
+`judge` takes frames one after the other, as `i7000.dissect` hears them, and returns findings. `verdict` counts them.
+Nothing is sent. The rules are in `i7000.conformance.judge_rules`, what a frame breaks by itself in `judge_frames`.
+
+Laws: frozen state in, frozen state out; the times are arguments. What cannot be judged is counted, never passed. A
+finding about times is certain as far as the times are right. If the traffic shows that an adapter collects bytes,
+findings about times that are shorter than it can deliver are withdrawn.
+"""
+
+from typing import Any
+
+from attrs import evolve
+
+from i7000 import dcon, modbus
+from i7000.arguments import check_type
+from i7000.conformance.judge_frames import Broken, answers, driver_broken, module_broken, resembles, writes_eeprom
+from i7000.conformance.judge_rules import Level, Rule, Side
+from i7000.conformance.judge_state import Asked, Count, Finding, Judge, Pause, Tally, Verdict, verdict
+from i7000.dissect import Direction, Heard, Knowledge
+from i7000.dissect.dcon import LEADS
+from i7000.dissect.timing import Times
+from i7000.settings import Protocol
+
+__all__ = ["EEPROM_WRITES", "Finding", "Judge", "Level", "Rule", "Side", "Tally", "Verdict", "judge", "verdict"]
+
+EEPROM_WRITES = 10
+"""More writes than these within a minute, to one module, are a loop."""
+_LOOP = 60.0
+_LUMP = 0.02
+"""The seconds that adapters can hold bytes back, and that an echo can take."""
+_RTU = Protocol.MODBUS_RTU
+
+
+def judge(
+    state: Judge, heard: Heard, knowledge: Knowledge, times: Times | None = None, *, sent: bool | None = None
+) -> tuple[Judge, tuple[Finding, ...]]:
+    r"""Judge what was heard next, a frame or not.
+
+    Shape: `knowledge` of the modules after it was heard: `Line.knowledge`. `sent`: whether the host sent it, None if
+        that is unknown.
+    Errors: `ArgumentError`.
+
+    >>> from i7000.dissect import hear_frame
+    >>> line, heard = hear_frame(Line(), b"$01m\r", Protocol.DCON)
+    >>> state, (finding,) = judge(Judge(), heard, line.knowledge)
+    >>> finding.rule.id, finding.what
+    ('listen/driver/lower-case', 'lower case: in upper case it is ReadModuleName')
+    """
+    check_type("state", state, Judge)
+    check_type("heard", heard, Heard)
+    check_type("knowledge", knowledge, Knowledge)
+    check_type("times", times, Times, optional=True)
+    side = _side(state, heard, times, sent)
+    if side is None:
+        noise = heard.same_as is None
+        return evolve(state, last=times, damaged=noise, unjudged=state.unjudged + noise), ()
+    step = _Step(state, heard, times)
+    (step.of_driver if side is Side.DRIVER else step.of_module)(knowledge)
+    return step.judged(), tuple(step.findings)
+
+
+# --- whose frame it is ------------------------------------------------------------------------------------------------
+
+
+def _side(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> Side | None:  # noqa: FBT001
+    """Return the side that a frame came from; None for noise and echoes."""
+    if heard.error is None and heard.same_as is not None:
+        return None if _is_echo(state, heard, times) else Side.DRIVER
+    if heard.direction is Direction.RESPONSE:
+        return _module_or_noise(state, heard)
+    if heard.direction is not None:
+        return Side.MODULE if _is_wrong_echo(state, heard, times, sent) else Side.DRIVER
+    return _side_of_damage(state, heard, times, sent)
+
+
+def _is_echo(state: Judge, heard: Heard, times: Times | None) -> bool:
+    """Return whether what is the same as the last command is its echo, and not the command again."""
+    before = state.asked or state.answered
+    since = None if before is None else _since(before.times, times)
+    if since is None:
+        return heard.direction is Direction.ECHO and state.asked is not None
+    return since <= _LUMP + len(heard.wire) * (state.character_time or 0.0)
+
+
+def _module_or_noise(state: Judge, heard: Heard) -> Side | None:
+    """Return the module for a response, and for text in its place; None for other noise."""
+    asked = state.asked
+    if heard.protocol is Protocol.DCON and heard.wire[:1] not in LEADS:
+        meant = asked is not None and asked.protocol is Protocol.DCON and len(heard.wire) >= len("!AA\r")
+        return Side.MODULE if meant and heard.wire.endswith(b"\r") else None
+    return Side.MODULE
+
+
+_ECHO = len("afssvvcc")
+"""Bytes of every answer to a write."""
+
+
+def _is_wrong_echo(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> bool:  # noqa: FBT001
+    """Return whether what reads as a request is an answer that does not repeat its request."""
+    asked = state.asked
+    if sent or asked is None or heard.protocol is not _RTU or asked.wire[:2] != heard.wire[:2]:
+        return False
+    if len(heard.wire) != _ECHO:
+        return False
+    since = _since(asked.times, times)
+    message: Any = heard.meanings[0].message
+    return message.broadcast and since is not None and since <= state.bound
+
+
+def _side_of_damage(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> Side | None:  # noqa: FBT001
+    """Return the side that a damaged Modbus frame came from: the one whose turn it is."""
+    asked = state.asked
+    since = _since(state.last, times)
+    fragment = state.damaged and since is not None and since < _LUMP
+    if len(heard.wire) < modbus.SHORTEST_FRAME or fragment:
+        return None
+    since = None if asked is None else _since(asked.times, times)
+    turn = asked is not None and not (since is not None and since > state.bound)
+    if sent is not None:
+        turn = not sent
+    if turn:
+        meant = asked is not None and asked.protocol is _RTU and resembles(heard.wire, asked.wire)
+        return Side.MODULE if meant else None
+    return Side.DRIVER if resembles(heard.wire, None) else None
+
+
+def _since(earlier: Times | None, times: Times | None) -> float | None:
+    """Return the seconds from the end of one frame to the beginning of another; None if the times cannot tell."""
+    if earlier is None or times is None or times.began < earlier.ended:
+        return None
+    return times.began - earlier.ended
+
+
+# --- a frame ----------------------------------------------------------------------------------------------------------
+
+_ANSWERABLE = (Rule.LACKS_COMMAND, Rule.BOUNDS)
+"""What may be wrong with a frame that a module answers all the same, with ``?AA`` or an exception."""
+
+
+class _Step:
+    """A frame that is being judged: its findings, and the changes of the state."""
+
+    def __init__(self, state: Judge, heard: Heard, times: Times | None) -> None:
+        self.state = state
+        self.heard = heard
+        self.times = times
+        self.findings: list[Finding] = []
+        self.changes: dict[str, Any] = {}
+        self._place: tuple[Side, int | None] | None = None
+        self._untimed: list[Rule] = []
+
+    def judged(self) -> Judge:
+        """Return the state after the frame."""
+        counts = self.state.counts
+        if self._place is not None:
+            frames, _ = counts.get(self._place, Count())
+            counts = {**counts, self._place: Count(frames + 1, counts.get(self._place, Count()).findings)}
+        for finding in self.findings:
+            place = finding.rule.side, finding.address
+            frames, found = counts.get(place, Count())
+            counts = {**counts, place: Count(frames, {**found, finding.rule: found.get(finding.rule, 0) + 1})}
+        untimed = self.state.untimed
+        for rule in self._untimed:
+            untimed = {**untimed, rule: untimed.get(rule, 0) + 1}
+        return evolve(
+            self.state,
+            last=self.times,
+            damaged=self.heard.error is not None,
+            counts=counts,
+            untimed=untimed,
+            **self.changes,
+        )
+
+    def _find(self, rule: Rule, what: str, address: int | None) -> None:
+        heard = self.heard
+        self.findings.append(Finding(rule, heard.place, address, heard.protocol, heard.wire, what, self.times))
+
+    def _since(self, earlier: Times | None) -> float | None:
+        return _since(earlier, self.times)
+
+    def _below(self, since: float, limit: float) -> bool:
+        """Return whether a time is certainly below a limit, as fine as the times are written."""
+        resolution = self.times.resolution if self.times else 0.0
+        return since + resolution <= limit if resolution else since < limit
+
+    def _above(self, since: float, limit: float) -> bool:
+        return since - (self.times.resolution if self.times else 0.0) > limit
+
+    # --- the driver ---------------------------------------------------------------------------------------------------
+
+    def of_driver(self, knowledge: Knowledge) -> None:
+        """Judge a frame of the driver."""
+        heard, state = self.heard, self.state
+        address = heard.address
+        self._place = Side.DRIVER, address
+        broken = driver_broken(heard, knowledge.of(address).known)
+        if broken is not None:
+            self._find(broken.rule, broken.what, address)
+        asked = self._asked(broken)
+        self._judge_pauses(address)
+        self._judge_turn(address)
+        self._judge_gaps(Rule.DRIVER_GAP_BEFORE, Rule.DRIVER_GAP_WITHIN, address)
+        self._judge_writes(address)
+        self.changes |= {
+            "asked": asked if asked.silent is None else None,
+            "earlier": state.asked,
+            "answered": None if asked.silent is None else asked,
+            "late": False,
+        }
+
+    def _asked(self, broken: Broken | None) -> Asked:
+        """Return the frame as a command, and begin the pause after it."""
+        heard = self.heard
+        faulty = broken is not None and broken.rule in (*_ANSWERABLE, Rule.NO_COMMAND)
+        silent = None if broken is None or broken.rule in _ANSWERABLE else Rule.ANSWERS_INVALID
+        if silent and broken is not None and broken.rule is Rule.NO_COMMAND and heard.protocol is _RTU:
+            silent = None  # A module answers with exception 01, or 03.
+        seconds, name = 0.0, ""
+        rule = Rule.ASK_IN_CALIBRATION
+        if silent is None and len(heard.meanings) == 1:
+            (meaning,) = heard.meanings
+            message: Any = meaning.message
+            codec: Any = modbus if heard.protocol is _RTU else dcon
+            seconds = min(codec.pause_after(message, profile) for profile in meaning.fit.profiles)
+            name = type(message).__name__
+            if not codec.is_answered(message):
+                to_all = heard.protocol is _RTU
+                silent = Rule.ANSWERS_MODBUS_BROADCAST if to_all else Rule.ANSWERS_BROADCAST
+                rule = Rule.ASK_AFTER_MODBUS_BROADCAST if to_all else Rule.ASK_AFTER_BROADCAST
+        asked = Asked(
+            heard.place, heard.wire, heard.protocol, heard.address, self.times, seconds, faulty=faulty, silent=silent
+        )
+        if seconds:
+            self._pause = Pause(rule, asked, seconds, name)
+        return asked
+
+    _pause: Pause | None = None
+    """The pause that begins with this frame."""
+
+    def _judge_pauses(self, address: int | None) -> None:
+        left = []
+        for pause in self.state.pauses:
+            rule, asked, seconds, name = pause
+            since = self._since(asked.times)
+            concerned = rule is not Rule.ASK_IN_CALIBRATION or asked.address in (address, None)
+            if not concerned:
+                left.append(pause)
+            elif since is None:
+                self._untimed.append(rule)
+            elif self._below(since, seconds):
+                self._brief(rule, since, f"{_time(since)} after {name}, {asked.place.where}: {_time(seconds)} needed")
+                left += [pause] if rule is Rule.ASK_IN_CALIBRATION else []
+        left = [pause for pause in left if self._pause is None or pause.asked.address != self._pause.asked.address]
+        self.changes["pauses"] = (*left, *([self._pause] if self._pause else []))
+
+    def _brief(self, rule: Rule, since: float, what: str) -> None:
+        """Find a breach of a rule about times, unless the adapter explains it."""
+        hidden = self.state.lumps or (self.state.collecting and since == 0.0)
+        if rule.brief and hidden:
+            self._untimed.append(rule)
+        else:
+            self._find(rule, what, self.heard.address)
+
+    def _judge_turn(self, address: int | None) -> None:
+        asked = self.state.asked
+        if asked is None:
+            return
+        since = self._since(asked.times)
+        if since is None:
+            self._untimed.append(Rule.ASK_BEFORE_ANSWER)
+        elif self._below(since, self.state.bound):
+            rule = Rule.TAKES_LATE_ANSWER if self.state.late else Rule.ASK_BEFORE_ANSWER
+            what = f"{_time(since)} after {asked.place.where}, which has no answer yet"
+            if self.state.late:
+                what += ", only that to an earlier frame has come"
+            self._find(rule, what, address)
+
+    def _judge_writes(self, address: int | None) -> None:
+        heard, times = self.heard, self.times
+        if heard.error is not None or len(heard.meanings) != 1 or not writes_eeprom(heard.meanings[0]):
+            return
+        if times is None:
+            self._untimed.append(Rule.EEPROM_LOOP)
+            return
+        recent = [it for it in self.state.writes.get(address, ()) if 0 <= times.began - it < _LOOP]
+        recent.append(times.began)
+        if len(recent) > EEPROM_WRITES:
+            name = type(heard.meanings[0].message).__name__
+            self._find(Rule.EEPROM_LOOP, f"{name} is write {len(recent)} within {_LOOP:g} s", address)
+            recent.clear()
+        self.changes["writes"] = {**self.state.writes, address: tuple(recent)}
+
+    # --- a module -----------------------------------------------------------------------------------------------------
+
+    def of_module(self, knowledge: Knowledge) -> None:
+        """Judge a frame of a module; those before the first command are not judged."""
+        state, heard = self.state, self.heard
+        asked = state.asked
+        if asked is None:
+            self._judge_unasked()
+            return
+        if heard.protocol is not asked.protocol:
+            self.changes["unjudged"] = state.unjudged + 1
+            return
+        self._place = Side.MODULE, asked.address
+        if self._judge_late(asked, knowledge):
+            self.changes["late"] = True
+            return
+        since = self._since(asked.times)
+        if since == 0.0 and state.collecting:
+            self.changes["lumps"] = True
+        bound = max(state.bound, asked.pause)
+        if since is None:
+            self._untimed.append(Rule.LATE)
+        elif self._above(since, bound):
+            self._find(Rule.LATE, f"{_time(since)} after {asked.place.where}: {_time(bound)} allowed", asked.address)
+        if not (asked.faulty and heard.error is None):
+            broken = module_broken(heard, asked.place, asked.wire, knowledge.of(asked.address).known)
+            if broken is not None:
+                self._find(broken.rule, broken.what, asked.address)
+        self._judge_gaps(Rule.MODULE_GAP_BEFORE, Rule.MODULE_GAP_WITHIN, asked.address)
+        self.changes |= {"asked": None, "earlier": None, "answered": asked}
+
+    def _judge_unasked(self) -> None:
+        """Judge a frame of a module while no command waits for one."""
+        before, heard = self.state.answered, self.heard
+        if before is None or heard.error is not None:
+            self.changes["unjudged"] = self.state.unjudged + 1
+            return
+        address = heard.address if heard.address is not None else before.address
+        self._place = Side.MODULE, address
+        where = before.place.where
+        if before.silent is not None:
+            self._find(before.silent, f"an answer to {where}", address)
+        elif address == before.address:
+            self._find(Rule.SECOND_ANSWER, f"{where} was answered before", address)
+        else:
+            self._find(Rule.UNASKED, f"the last command, {where}, was answered before, and of another module", address)
+
+    def _judge_late(self, asked: Asked, knowledge: Knowledge) -> bool:
+        """Judge an answer to the command before the last; return whether it is one."""
+        heard, earlier = self.heard, self.state.earlier
+        if earlier is None or self.state.late or asked.faulty:
+            return False
+        known = knowledge.of(earlier.address).known
+        is_late = heard.answers == earlier.place
+        if heard.protocol is _RTU and heard.answers is None and earlier.protocol is _RTU:
+            is_late = answers(earlier.wire, heard.wire, known)
+        if not is_late:
+            return False
+        self._place = Side.MODULE, earlier.address
+        since, where = self._since(earlier.times), earlier.place.where
+        if since is None:
+            self._find(Rule.ORDER, f"the answer to {where}, after {asked.place.where} was asked", earlier.address)
+        elif self._above(since, self.state.bound):
+            what = f"{_time(since)} after {where}, when {asked.place.where} was asked"
+            self._find(Rule.LATE, what, earlier.address)
+        else:
+            what = f"the answer to {where} came after {asked.place.where}, {_time(since)} after it was asked for"
+            self._find(Rule.ASK_DURING_ANSWER, what, asked.address)
+        return True
+
+    # --- silences -----------------------------------------------------------------------------------------------------
+
+    def _judge_gaps(self, before: Rule, within: Rule, address: int | None) -> None:
+        """Judge the silence before a Modbus frame, and inside it."""
+        state, times, silence = self.state, self.times, self.state.silence
+        if self.heard.protocol is not _RTU:
+            return
+        since = self._since(state.last)
+        if silence is None or times is None:
+            self._untimed.append(before)
+            return
+        if since == 0.0 and before is Rule.MODULE_GAP_BEFORE:
+            self._untimed.append(before)  # No module answers in no time: both have the time of the exchange.
+        elif since is not None and self._below(since, silence):
+            self._gap(before, since, f"{_time(since)} after the frame before: {_time(silence)} needed", address)
+        longest = silence + (_LUMP if state.collecting else 0.0)
+        if times.gap > longest:
+            self._gap(within, times.gap, f"a silence of {_time(times.gap)}: {_time(silence)} ends a frame", address)
+
+    def _gap(self, rule: Rule, since: float, what: str, address: int | None) -> None:
+        if self.state.lumps or (self.state.collecting and since == 0.0):
+            self._untimed.append(rule)
+        else:
+            self._find(rule, what, address)
+
+
+def _time(seconds: float) -> str:
+    """Write a time with three digits."""
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1000:.3g} ms"
