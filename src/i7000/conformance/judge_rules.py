@@ -82,9 +82,6 @@ class Rule(Enum):
         "ask-before-answer", _I, "2 3", "",
         "A driver asks again only after the answer, or after the time in which it can come.",
     )  # fmt: skip
-    ASK_DURING_ANSWER = _driver(
-        "ask-during-answer", _I, "2 3", "", "A driver does not ask while the answer to its last frame is under way."
-    )
     TAKES_LATE_ANSWER = _driver(
         "takes-late-answer",
         _I,
