@@ -5,6 +5,7 @@ import io
 import os
 import socket
 import subprocess
+import threading
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from threading import Event
@@ -286,6 +287,56 @@ def test_standard_input_is_read_from_its_descriptor_and_may_go(monkeypatch: pyte
     os.close(reading)
 
     assert read() == b""
+
+
+def test_a_line_of_standard_input_that_is_carried_out_at_the_end_ends_with_the_loop(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"fault\n")))
+    begun = asyncio.Event()
+    failed: list[object] = []
+
+    async def endless(_: str) -> str:
+        begun.set()
+        await asyncio.Event().wait()
+        raise AssertionError
+
+    async def follow(_: Simulator, control: Control) -> None:
+        monkeypatch.setattr(control, "answer", endless)
+        follow_input(control, print)
+        await asyncio.wait_for(begun.wait(), ENOUGH)
+
+    monkeypatch.setattr("threading.excepthook", failed.append)
+    controlled(follow)
+    for thread in threading.enumerate():
+        if thread.name == "i7000 control":
+            thread.join(ENOUGH)
+
+    assert failed == []
+
+
+def test_a_line_of_standard_input_that_comes_after_the_end_is_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+    read, ended = threading.Event(), threading.Event()
+    failed: list[object] = []
+
+    def late() -> bytes:
+        read.set()
+        assert ended.wait(ENOUGH)
+        return b"fault\n"
+
+    async def follow(_: Simulator, control: Control) -> None:
+        follow_input(control, print)
+        assert await asyncio.to_thread(read.wait, ENOUGH)
+
+    monkeypatch.setattr(controlling, "_reader", lambda: late)
+    monkeypatch.setattr("threading.excepthook", failed.append)
+    controlled(follow)
+    ended.set()
+    for thread in threading.enumerate():
+        if thread.name == "i7000 control":
+            thread.join(ENOUGH)
+
+    assert failed == []
 
 
 def test_without_standard_input_another_way_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

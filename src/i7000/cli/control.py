@@ -20,6 +20,7 @@ from i7000.cli.faults import faults_words, read_faults
 from i7000.cli.text import escaped, undecodable_as_bytes
 from i7000.cli.words import UsageError
 from i7000.errors import I7000Error
+from i7000.link.worker import done_in
 from i7000.simulator.faults import Faults
 
 __all__ = ["LONGEST_LINE", "MOST_CONNECTIONS", "Command", "Control", "Lines", "follow_input", "listening"]
@@ -225,11 +226,12 @@ def follow_input(control: Control, write: Callable[[str], None]) -> None:
 
     def follow() -> None:
         lines = Lines()
-        with suppress(RuntimeError):  # The loop has ended.
-            while data := read():
-                asyncio.run_coroutine_threadsafe(carry_out(lines.feed(data)), loop).result()
-            asyncio.run_coroutine_threadsafe(carry_out(lines.end()), loop).result()
-            loop.call_soon_threadsafe(control.line.end)
+        while data := read():
+            if not done_in(loop, carry_out(lines.feed(data))):
+                return
+        if done_in(loop, carry_out(lines.end())):
+            with suppress(RuntimeError):  # The loop has ended.
+                loop.call_soon_threadsafe(control.line.end)
 
     Thread(target=follow, name="i7000 control", daemon=True).start()
 

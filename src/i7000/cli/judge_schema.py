@@ -16,7 +16,7 @@ _COUNT: _Schema = {"type": "integer", "minimum": 0}
 _ADDRESS: _Schema = {"type": ["integer", "null"], "minimum": 0, "maximum": 255}
 _ID: _Schema = {"enum": [rule.id for rule in Rule]}
 _SIDE: _Schema = {"enum": list(Side)}
-_LEVEL: _Schema = {"enum": list(Level)}
+_LEVEL: _Schema = {"enum": [level.value for level in Level]}
 
 
 def _object(properties: _Schema) -> _Schema:

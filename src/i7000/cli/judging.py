@@ -1,53 +1,23 @@
-"""``--judge`` of ``i7000 listen``: the options, and the findings and the verdict as text or JSON.
+"""``--judge`` of ``i7000 listen``: the findings and the verdict as text or JSON.
 
 Laws: what is printed is complete only with its last record; nothing that was judged is never a success.
 """
 
 import json
 from collections.abc import Iterator, Mapping
-from hashlib import sha256
-from importlib.resources.abc import Traversable
-from typing import Annotated, Any
+from typing import Any
 
-from attrs import frozen
-from cyclopts import Parameter
-
-from i7000 import __version__, describe, spec
+from i7000 import __version__, describe
 from i7000.cli.judge_schema import SCHEMA_VERSION
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Missing, Read, stamped
 from i7000.cli.records import frame_words
 from i7000.cli.text import Line, Printer
-from i7000.cli.words import UsageError
 from i7000.conformance.judge import Finding, Judge, Level, Rule, Tally, Verdict, judge, verdict
 
-__all__ = ["NO_JUDGE", "JudgeOptions", "Judging"]
+__all__ = ["Judging"]
 
-_LONGEST_TIMEOUT = 60.0
 _PROTOCOLS = {protocol: name for name, protocol in PROTOCOLS.items()}
-
-
-@Parameter(name="*")
-@frozen
-class JudgeOptions:
-    """Whether the line is judged, and how."""
-
-    judge: Annotated[bool, Parameter(negative="")] = False
-    """Judge driver and modules: show what breaks a rule, and a verdict at the end."""
-    timeout: float | None = None
-    """With --judge: seconds in which a response has to begin. Default: 0.2. Example: --timeout 0.5."""
-    strict: Annotated[bool, Parameter(negative="")] = False
-    """With --judge: exit with 1 for findings of every level, not only must."""
-
-    def check(self) -> None:
-        """Raise `UsageError` for options that do not fit."""
-        if not self.judge and (self.timeout is not None or self.strict):
-            raise UsageError("--timeout and --strict are for --judge")
-        if self.timeout is not None and not 0 < self.timeout <= _LONGEST_TIMEOUT:
-            raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT:g} seconds")
-
-
-NO_JUDGE = JudgeOptions()
 
 
 class Judging:
@@ -64,13 +34,15 @@ class Judging:
     def begin(self, target: str) -> None:
         """Print the first record, for programs."""
         if self._printer.json:
+            from i7000.conformance.records import spec_digest  # noqa: PLC0415 - it is not needed for people
+
             self._write(
                 {
                     "record": "run-start",
                     "schema_version": SCHEMA_VERSION,
                     "program": "i7000 listen --judge",
                     "version": __version__,
-                    "spec_sha256": _digest(),
+                    "spec_sha256": spec_digest(),
                     "target": target,
                     "timeout": self._state.bound,
                 }
@@ -112,23 +84,6 @@ class Judging:
         self._printer.write(json.dumps(record))
 
 
-def _digest() -> str:
-    """Return the SHA-256 of the files of `spec`, with their names."""
-    digest = sha256()
-    for name, file in sorted(_files(spec.files(), "")):
-        digest.update(f"{name}\n".encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
-
-
-def _files(folder: Traversable, above: str) -> Iterator[tuple[str, Traversable]]:
-    for entry in folder.iterdir():
-        if entry.is_dir() and not entry.name.startswith("_"):
-            yield from _files(entry, f"{above}{entry.name}/")
-        elif entry.name.endswith((".json", ".md")):
-            yield f"{above}{entry.name}", entry
-
-
 def _record(finding: Finding, read: Read) -> dict[str, Any]:
     rule = finding.rule
     return {
@@ -136,7 +91,7 @@ def _record(finding: Finding, read: Read) -> dict[str, Any]:
         "id": rule.id,
         "side": rule.side,
         "address": finding.address,
-        "level": rule.level,
+        "level": rule.level.value,
         "sections": rule.sections,
         "errata": rule.errata,
         "requirement": rule.sentence,
@@ -161,7 +116,7 @@ def _lines(finding: Finding, read: Read) -> Iterator[Line]:
     yield [
         (_INDENT, ""),
         (rule.id, "red" if rule.level is Level.MUST else "yellow"),
-        (f"  {_place(rule.side, finding.address)}  ({rule.level}; {source})", ""),
+        (f"  {_place(rule.side, finding.address)}  ({rule.level.value}; {source})", ""),
     ]
     yield [(f"{_INDENT}{rule.sentence}", "")]
     yield [(f"{_INDENT}{finding.what}", "")]
@@ -181,7 +136,7 @@ def _end_record(found: Verdict, broken: int, damaged: int, code: int) -> dict[st
                 "side": side,
                 "address": address,
                 "frames": frames,
-                "findings": [{"id": rule.id, "level": rule.level, "count": count} for rule, count in findings],
+                "findings": [{"id": rule.id, "level": rule.level.value, "count": count} for rule, count in findings],
             }
             for side, address, frames, findings in found.tallies
         ],
@@ -225,7 +180,7 @@ def _tally_lines(tally: Tally) -> Iterator[Line]:
 
 
 def _id(rule: Rule) -> str:
-    return f"{rule.id} ({rule.level})"
+    return f"{rule.id} ({rule.level.value})"
 
 
 def _counted(count: int, noun: str) -> str:

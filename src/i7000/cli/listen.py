@@ -3,14 +3,12 @@
 import os
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from attrs import evolve
+from attrs import evolve, frozen
 from cyclopts import Parameter
 
-from i7000.cli import judge_schema
 from i7000.cli.decode import Input, reads_of
-from i7000.cli.judging import NO_JUDGE, JudgeOptions, Judging
 from i7000.cli.listening import Listening, run, show
 from i7000.cli.message import DCON, MODBUS
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
@@ -18,12 +16,39 @@ from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
 from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError, near
-from i7000.conformance.judge import Judge
 from i7000.dissect import Line
 from i7000.recording.schema import SCHEMA
 from i7000.settings import BaudRate
 
+if TYPE_CHECKING:
+    from i7000.cli.judging import Judging
+
 __all__ = ["listen"]
+
+_LONGEST_TIMEOUT = 60.0
+
+
+@Parameter(name="*")
+@frozen
+class JudgeOptions:
+    """Whether the line is judged, and how."""
+
+    judge: Annotated[bool, Parameter(negative="")] = False
+    """Judge driver and modules: show what breaks a rule, and a verdict at the end."""
+    timeout: float | None = None
+    """With --judge: seconds in which a response has to begin. Default: 0.2. Example: --timeout 0.5."""
+    strict: Annotated[bool, Parameter(negative="")] = False
+    """With --judge: exit with 1 for findings of every level, not only must."""
+
+    def check(self) -> None:
+        """Raise `UsageError` for options that do not fit."""
+        if not self.judge and (self.timeout is not None or self.strict):
+            raise UsageError("--timeout and --strict are for --judge")
+        if self.timeout is not None and not 0 < self.timeout <= _LONGEST_TIMEOUT:
+            raise UsageError(f"--timeout {self.timeout:g}: give more than 0, at most {_LONGEST_TIMEOUT:g} seconds")
+
+
+NO_JUDGE = JudgeOptions()
 
 
 def listen(  # noqa: PLR0913 - each of them is an option
@@ -67,7 +92,7 @@ def listen(  # noqa: PLR0913 - each of them is an option
     file is damaged; 5 that nothing was heard that could be judged.
     """
     if schema:
-        sys.stdout.write(f"{judge_schema.SCHEMA if judging.judge else SCHEMA}\n")
+        sys.stdout.write(f"{_judge_schema() if judging.judge else SCHEMA}\n")
         return 0
     if target is None:
         raise UsageError("give a port or a file, such as i7000 listen /dev/ttyUSB0")
@@ -97,10 +122,19 @@ def listen(  # noqa: PLR0913 - each of them is an option
     return _from_file(listening, printer) if is_file else run(listening, printer)
 
 
+def _judge_schema() -> str:
+    from i7000.cli.judge_schema import SCHEMA  # noqa: PLC0415 - who only listens does without
+
+    return SCHEMA
+
+
 def _judging(
     listening: Listening, options: JudgeOptions, printer: Printer, *, is_file: bool, known_line: bool
-) -> Judging:
+) -> "Judging":
     """Begin a judgement; the settings of the line count for a file only if they are given."""
+    from i7000.cli.judging import Judging  # noqa: PLC0415 - who only listens does without
+    from i7000.conformance.judge import Judge  # noqa: PLC0415
+
     settings = listening.settings
     character = settings.character_format.bits / BaudRate(settings.baud_rate).bits_per_second if known_line else None
     state = Judge(character_time=character, collecting=not is_file or _is_of_listener(Path(listening.target)))

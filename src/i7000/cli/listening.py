@@ -10,12 +10,11 @@ from contextlib import ExitStack, contextmanager, redirect_stdout
 from datetime import UTC, datetime
 from functools import partial
 from time import monotonic, time
-from typing import IO, cast
+from typing import IO, TYPE_CHECKING, cast
 
 from attrs import evolve, frozen
 
 from i7000.cli.frame_text import frame_lines
-from i7000.cli.judging import Judging
 from i7000.cli.outlet import Outlet, missed_words
 from i7000.cli.port import ended_by_signals, opened
 from i7000.cli.readers import Read
@@ -28,6 +27,9 @@ from i7000.dissect.timing import TimedHeard, TimedLine, Times, flush_at, hear_at
 from i7000.recording import Carried
 from i7000.settings import LineSettings
 from i7000_cli import FAILED
+
+if TYPE_CHECKING:
+    from i7000.cli.judging import Judging
 
 __all__ = ["Listener", "Listening", "run", "show"]
 
@@ -95,7 +97,7 @@ class Listening:
     """The names of the messages to show; all if there are none."""
     seconds: float
     recording: RecordOptions
-    judging: Judging | None = None
+    judging: "Judging | None" = None
     """What judges the frames, and prints findings in their place."""
 
     def shows(self, read: Read) -> bool:

@@ -15,8 +15,9 @@ from attrs import evolve
 from i7000 import dcon, modbus
 from i7000.arguments import check_type
 from i7000.conformance.judge_frames import Broken, answers, driver_broken, module_broken, resembles, writes_eeprom
-from i7000.conformance.judge_rules import Level, Rule, Side
+from i7000.conformance.judge_rules import Rule, Side
 from i7000.conformance.judge_state import Asked, Count, Finding, Judge, Pause, Tally, Verdict, verdict
+from i7000.conformance.statement import Level
 from i7000.dissect import Direction, Heard, Knowledge
 from i7000.dissect.dcon import LEADS
 from i7000.dissect.timing import Times

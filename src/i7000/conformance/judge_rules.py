@@ -1,14 +1,15 @@
 """The rules for a line in operation: what a driver and a module owe to each other, by what can be heard of them.
 
-Laws: an id is written once and never reused. Each rule has one side, the sections that it follows from, and a level:
-the manual says so (`MUST`), an example shows it (`EXAMPLE`), it follows from what the manual says or from the rules of
-a line with two wires (`INFERRED`), or the manual leaves it open (`OPEN`).
+Laws: an id is written once and never reused. Each rule has one side, the sections that it follows from, and a level.
+What follows from the rules of a line with two wires, and not from the manual alone, is `INFERRED`.
 """
 
 from enum import Enum, StrEnum
 from typing import NamedTuple
 
-__all__ = ["Level", "Rule", "Side"]
+from i7000.conformance.statement import Level
+
+__all__ = ["Rule", "Side"]
 
 
 class Side(StrEnum):
@@ -18,19 +19,6 @@ class Side(StrEnum):
     """The host, which asks."""
     MODULE = "module"
     """A module, which answers."""
-
-
-class Level(StrEnum):
-    """The evidence for a rule."""
-
-    MUST = "must"
-    """The manual says so."""
-    EXAMPLE = "example"
-    """Only an example of the manual shows it."""
-    INFERRED = "inferred"
-    """It follows from what the manual says, or from the rules of a line that all share."""
-    OPEN = "open"
-    """The manual is silent, or contradicts itself."""
 
 
 class _Statement(NamedTuple):

@@ -10,7 +10,8 @@ from typing import NamedTuple
 from attrs import field
 
 from i7000.arguments import check_seconds, check_type
-from i7000.conformance.judge_rules import Level, Rule, Side
+from i7000.conformance.judge_rules import Rule, Side
+from i7000.conformance.statement import Level
 from i7000.dissect import Place
 from i7000.dissect.timing import Times
 from i7000.errors import InvalidValueError

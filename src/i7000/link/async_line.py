@@ -13,11 +13,11 @@ from types import TracebackType
 from typing import Self, TypeVar, Unpack
 
 from i7000.host import Bus, Outcome, Policy
-from i7000.host.procedures import Procedure, Tune, Wait
-from i7000.link.conversation import Act, Acts, Conversation, Read, Write
+from i7000.host.procedures import PowerCycle, Procedure, Tune, Wait
+from i7000.link.conversation import SWITCHED, Act, Acts, Conversation, Read, Write
 from i7000.link.errors import LinkError
 from i7000.link.observed import Observed
-from i7000.link.port import Port, clock_of, close, read, tune, write
+from i7000.link.port import Port, clock_of, close, power_cycle, read, tune, write
 from i7000.link.target import TargetOptions, open_target
 from i7000.link.worker import Worker
 from i7000.message import Query, Response
@@ -162,6 +162,10 @@ class AsyncLine:
             return await self._read(act.until)
         if isinstance(act, Write):
             await self._called(partial(write, self.port, act.wire))
+        elif isinstance(act, PowerCycle):
+            switched: list[bool] = []
+            await self._called(lambda: switched.append(power_cycle(self.port, init_switch=act.init_switch)))
+            return SWITCHED if switched[0] else b""
         else:
             await self._called(partial(tune, self.port, act.line))
         return b""

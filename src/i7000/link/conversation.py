@@ -15,12 +15,12 @@ from attrs import evolve, frozen
 
 from i7000.errors import Noise
 from i7000.host import Bus, Ended, Late, Outcome, Policy, Rejected, Transmit, abandon, next_deadline, receive, send
-from i7000.host.procedures import Ask, Procedure, Result, Tune, Wait
+from i7000.host.procedures import Ask, BytesHeard, PowerCycle, Procedure, Result, SendBytes, Tune, Wait
 from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
 from i7000.message import Query, Response
 from i7000.profile import Profile
 
-__all__ = ["Act", "Acts", "Conversation", "Read", "Write"]
+__all__ = ["SWITCHED", "Act", "Acts", "Conversation", "Read", "Write"]
 
 R = TypeVar("R", bound=Response)
 T = TypeVar("T")
@@ -42,8 +42,11 @@ class Write:
     wire: bytes
 
 
-Act = Read | Write | Tune
+Act = Read | Write | Tune | PowerCycle
 """What a conversation needs to be done."""
+
+SWITCHED = b"switched"
+"""What is sent for a `PowerCycle` that the port can make; otherwise nothing is."""
 
 Acts = Generator[Act, bytes, T]
 """A conversation that returns T."""
@@ -110,6 +113,41 @@ class Conversation:
             for event in events:
                 self._show(Happened(now, event))
 
+    def send_bytes(self, step: SendBytes) -> Acts[BytesHeard]:
+        """Send bytes as they are, and return what is heard.
+
+        Special: an echo is dropped where the line has one.
+        """
+        heard: list[tuple[float, bytes]] = []
+        yield from self._listen(max(self.bus.quiet_until, self.bus.heard_at + self.bus.silence), [])
+        end = self.clock()
+        for pause, wire in step.pieces:
+            yield from self._listen(max(end, self.clock()) + pause, heard)
+            yield Write(wire)
+            self._show(Written(self.clock(), wire))
+            end = max(end, self.clock()) + len(wire) * self.bus.character_time
+        yield from self._listen(end + step.seconds, heard, step)
+        pieces = _without_echo(heard, b"".join(wire for _, wire in step.pieces)) if self.bus.echo else heard
+        return BytesHeard(tuple((at - end, data) for at, data in pieces), self.clock())
+
+    def _listen(self, until: float, heard: list[tuple[float, bytes]], step: SendBytes | None = None) -> Acts[None]:
+        """Hear what comes until a time; with a step, only until its answer is complete."""
+        latest = until
+        while (now := self.clock()) < latest:
+            data = yield Read(latest)
+            now = self._heard(data)
+            self.bus, events = receive(self.bus, data, now)
+            for event in events:
+                self._show(Happened(now, event))
+            if data:
+                heard.append((now, data))
+                if step:
+                    latest = min(until, now + step.quiet) if data.endswith(step.ends) else until
+
+    def power_cycle(self, step: PowerCycle) -> Acts[bool]:
+        """Switch the power off and on, and return whether the port can do that."""
+        return (yield step) == SWITCHED
+
     def tune(self, step: Tune) -> Acts[None]:
         """Change the line settings of the host."""
         if step.line != self.bus.line:
@@ -123,7 +161,7 @@ class Conversation:
         Special: a procedure that does not get to its end leaves the line settings as they were before it.
         """
         before = Tune(self.bus.line)
-        answer: Result[Response] | None = None
+        answer: Result[Response] | BytesHeard | bool | None = None
         try:
             while True:
                 try:
@@ -134,6 +172,10 @@ class Conversation:
                 answer = None
                 if isinstance(step, Ask):
                     answer = yield from self.ask(step.command, step.profile, step.policy)
+                elif isinstance(step, SendBytes):
+                    answer = yield from self.send_bytes(step)
+                elif isinstance(step, PowerCycle):
+                    answer = yield from self.power_cycle(step)
                 elif isinstance(step, Tune):
                     yield from self.tune(step)
                 elif isinstance(step, Wait):
@@ -160,3 +202,15 @@ class Conversation:
             except Exception:  # noqa: BLE001 - another's
                 self.observe = None
                 _log.exception("the observer of a line failed, and is not called again")
+
+
+def _without_echo(heard: list[tuple[float, bytes]], sent: bytes) -> list[tuple[float, bytes]]:
+    """Return what was heard after the echo of the sent bytes, or all of it if it does not begin with them."""
+    if not b"".join(data for _, data in heard).startswith(sent):
+        return heard
+    found, left = [], len(sent)
+    for at, data in heard:
+        if rest := data[left:]:
+            found.append((at, rest))
+        left = max(0, left - len(data))
+    return found

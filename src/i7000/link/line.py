@@ -7,11 +7,11 @@ from typing import Self, TypeVar, Unpack
 
 from i7000.errors import StateError
 from i7000.host import Bus, Outcome, Policy
-from i7000.host.procedures import Procedure, Tune, Wait
-from i7000.link.conversation import Act, Acts, Conversation, Read, Write
+from i7000.host.procedures import PowerCycle, Procedure, Tune, Wait
+from i7000.link.conversation import SWITCHED, Act, Acts, Conversation, Read, Write
 from i7000.link.errors import LinkError
 from i7000.link.observed import Observed
-from i7000.link.port import Port, clock_of, close, read, tune, write
+from i7000.link.port import Port, clock_of, close, power_cycle, read, tune, write
 from i7000.link.target import TargetOptions, open_target
 from i7000.message import Query, Response
 from i7000.profile import Profile
@@ -155,6 +155,8 @@ class Line:
             return read(self.port, max(0.0, act.until - self._conversation.clock()))
         if isinstance(act, Write):
             write(self.port, act.wire)
+        elif isinstance(act, PowerCycle):
+            return SWITCHED if power_cycle(self.port, init_switch=act.init_switch) else b""
         else:
             tune(self.port, act.line)
         return b""

@@ -12,7 +12,7 @@ from i7000.errors import I7000Error, InvalidValueError
 from i7000.link.errors import LinkError
 from i7000.settings import BaudRate, LineSettings
 
-__all__ = ["Port", "clock_of", "close", "named", "read", "settings_of", "tune", "write"]
+__all__ = ["Port", "clock_of", "close", "named", "power_cycle", "read", "settings_of", "tune", "write"]
 
 _LONGEST = 3600.0
 """The longest time in seconds of one read: systems do not take any time."""
@@ -108,10 +108,12 @@ def read(port: Port, seconds: float) -> bytes:
 def write(port: Port, wire: bytes) -> None:
     """Send bytes.
 
-    Errors: `LinkError`.
+    Errors: `LinkError`; those of this package that a port raises pass.
     """
     try:
         count = port.write(wire)
+    except I7000Error:
+        raise
     except Exception as error:
         raise _lost(port, error) from error
     if count is not None and count < len(wire):
@@ -130,6 +132,23 @@ def tune(port: Port, line: LineSettings) -> None:
                 setattr(port, name, value)
     except Exception as error:
         raise _lost(port, error, f"cannot be set to {settings['baudrate']} {line.character_format.name}") from error
+
+
+def power_cycle(port: Port, *, init_switch: bool) -> bool:
+    """Switch the power of the modules at a port off and on; return False if the port cannot do that.
+
+    Errors: `LinkError`.
+    """
+    switch: Callable[..., object] | None = getattr(port, "power_cycle", None)
+    if switch is None:
+        return False
+    try:
+        switch(init_switch=init_switch)
+    except I7000Error:
+        raise
+    except Exception as error:
+        raise _lost(port, error) from error
+    return True
 
 
 def close(port: Port) -> None:

@@ -111,8 +111,13 @@ class ProcessPort(serial.SerialBase):
         self.init_switch = init_switch
         self._start()
 
-    def power_cycle(self) -> None:
-        """Kill the process, and start it again; what is on the line is lost."""
+    def power_cycle(self, *, init_switch: bool | None = None) -> None:
+        """Kill the process, and start it again; what is on the line is lost.
+
+        Shape: `init_switch` is the switch from now on; None leaves it as it is.
+        """
+        if init_switch is not None:
+            self.init_switch = init_switch
         self._checked().end()
         self.is_open = False
         self._start()

@@ -144,8 +144,13 @@ class VirtualPort(serial.SerialBase):
         self._advance()
         return self._bus.modules
 
-    def power_cycle(self) -> None:
-        """Switch the power of all modules off and on; what is on the line is lost."""
+    def power_cycle(self, *, init_switch: bool | None = None) -> None:
+        """Switch the power of all modules off and on; what is on the line is lost.
+
+        Shape: `init_switch` sets all `init_switches` before; None leaves them as they are.
+        """
+        if init_switch is not None:
+            self.init_switches = [init_switch] * len(self.init_switches)
         self._pass(self._now)
         self._bus = Bus(
             tuple(

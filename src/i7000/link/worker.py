@@ -1,18 +1,19 @@
-"""A thread for the blocking calls of a port, for programs with an event loop.
+"""Threads beside an event loop: one for the blocking calls of a port; and work that another thread hands to the loop.
 
 Laws: calls are carried out in order. The thread is a daemon: a call that never returns delays neither the event loop
 nor the end of the program.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from concurrent.futures import CancelledError
 from contextlib import suppress
 from functools import partial
 from queue import SimpleQueue
 from threading import Thread
-from typing import TypeVar
+from typing import Any, TypeVar
 
-__all__ = ["Worker"]
+__all__ = ["Worker", "done_in"]
 
 T = TypeVar("T")
 
@@ -52,3 +53,17 @@ class Worker:
     def _work(self) -> None:
         while carry_out := self._calls.get():
             carry_out()
+
+
+def done_in(loop: asyncio.AbstractEventLoop, coroutine: Coroutine[Any, Any, object]) -> bool:
+    """Wait in another thread until a loop has carried out a coroutine; return False if the loop ended before."""
+    try:
+        future = asyncio.run_coroutine_threadsafe(coroutine, loop)
+    except RuntimeError:
+        coroutine.close()
+        return False
+    try:
+        future.result()
+    except CancelledError:
+        return False
+    return True

@@ -15,6 +15,7 @@ from i7000.device import Uart
 from i7000.errors import I7000Error
 from i7000.link.errors import LinkError
 from i7000.link.port import Port, close, named, read, write
+from i7000.link.worker import done_in
 
 __all__ = ["Target"]
 
@@ -84,15 +85,14 @@ class Target:
         close(self._port)
 
     def _read(self) -> None:
-        with suppress(RuntimeError):  # The loop has ended.
-            while not self._ended:
-                try:
-                    data = read(self._port, _LOOK)
-                except I7000Error as error:
-                    self._fail(error)
-                    return
-                if data:
-                    asyncio.run_coroutine_threadsafe(self._hand_over(data), self._loop).result()
+        while not self._ended:
+            try:
+                data = read(self._port, _LOOK)
+            except I7000Error as error:
+                self._fail(error)
+                return
+            if data and not done_in(self._loop, self._hand_over(data)):
+                return
 
     async def _hand_over(self, data: bytes) -> None:
         self._received(data)

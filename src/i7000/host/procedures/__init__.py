@@ -21,7 +21,19 @@ from i7000.host.procedures.restoring import Restoration, Restored, Status, Writi
 from i7000.host.procedures.scan import Finding, FindingKind, Progress, Scanned, scan
 from i7000.host.procedures.settings import NOT_SETTINGS, Hazard, Setting, find_setting, hazard_of, settings_of
 from i7000.host.procedures.snapshot import SCHEMA_VERSION, Snapshot, snapshot
-from i7000.host.procedures.step import Ask, Procedure, Result, Step, Tell, Tune, Wait, ask
+from i7000.host.procedures.step import (
+    Ask,
+    BytesHeard,
+    PowerCycle,
+    Procedure,
+    Result,
+    SendBytes,
+    Step,
+    Tell,
+    Tune,
+    Wait,
+    ask,
+)
 
 __all__ = [
     "EVERY_LINE",
@@ -29,6 +41,7 @@ __all__ = [
     "SCAN_POLICY",
     "SCHEMA_VERSION",
     "Ask",
+    "BytesHeard",
     "Candidate",
     "Change",
     "ChannelFault",
@@ -37,6 +50,7 @@ __all__ = [
     "Hazard",
     "Identified",
     "Place",
+    "PowerCycle",
     "Procedure",
     "Progress",
     "Report",
@@ -44,6 +58,7 @@ __all__ = [
     "Restored",
     "Result",
     "Scanned",
+    "SendBytes",
     "Setting",
     "Snapshot",
     "Status",

@@ -13,7 +13,7 @@ from i7000.message import Query, Response
 from i7000.profile import Profile
 from i7000.settings import BaudRate, LineSettings
 
-__all__ = ["Ask", "Procedure", "Result", "Step", "Tell", "Tune", "Wait", "ask"]
+__all__ = ["Ask", "BytesHeard", "PowerCycle", "Procedure", "Result", "SendBytes", "Step", "Tell", "Tune", "Wait", "ask"]
 
 T = TypeVar("T")
 R = TypeVar("R", bound=Response)
@@ -77,13 +77,68 @@ class Wait:
 
 
 @frozen
+class SendBytes:
+    """The step to send bytes as they are and to listen; the driver sends the `BytesHeard`.
+
+    Shape: `pieces` are pairs of a pause and bytes that follow it: a request in one piece is ``((0.0, wire),)``. The
+        line is silent for 3.5 characters before the first piece.
+        `seconds` is the longest time to listen after the last byte. `ends` is what bytes end with that are a whole
+        answer, such as a CR; then, and after any bytes if it is empty, listening ends after `quiet` seconds of silence.
+    Unit: seconds.
+    Errors: `InvalidValueError` for a field of another type, and for times that are negative or not finite.
+    """
+
+    pieces: tuple[tuple[float, bytes], ...]
+    seconds: float
+    quiet: float = 0.05
+    ends: bytes = b""
+
+    def __attrs_post_init__(self) -> None:
+        check_fields(self, {"pieces": (tuple,), "ends": (bytes,)})
+        for piece in self.pieces:
+            if not (isinstance(piece, tuple) and len(piece) == 2 and isinstance(piece[1], bytes)):
+                raise InvalidValueError("pieces", piece, "pairs of a pause in seconds and bytes", "")
+        times = [("pieces", pause) for pause, _ in self.pieces]
+        for name, value in (*times, ("seconds", self.seconds), ("quiet", self.quiet)):
+            if not is_number(value) or value < 0:
+                raise InvalidValueError(name, value, "seconds, 0 or more", "")
+
+
+@frozen
+class BytesHeard:
+    """The result of `SendBytes`.
+
+    Shape: `pieces` are pairs of a time and the bytes that were read then; the time is in seconds after the end of the
+        last byte sent, negative before it. `now` is the time of the clock of the line at the end.
+    """
+
+    pieces: tuple[tuple[float, bytes], ...]
+    now: float
+
+    @property
+    def wire(self) -> bytes:
+        """All bytes."""
+        return b"".join(data for _, data in self.pieces)
+
+
+@frozen
+class PowerCycle:
+    """The step to switch the power of the modules off and on; the driver sends whether the port can do that.
+
+    Shape: `init_switch` is whether the INIT switch is set at power-on.
+    """
+
+    init_switch: bool = False
+
+
+@frozen
 class Tell:
     """The step to report `value`, a finding or the progress, to the user of the driver; the driver sends None."""
 
     value: object
 
 
-Step = Ask[Response] | Tune | Wait | Tell
+Step = Ask[Response] | SendBytes | PowerCycle | Tune | Wait | Tell
 """What a procedure yields."""
 
 Procedure = Generator[Step, Any, T]

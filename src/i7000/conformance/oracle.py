@@ -1,0 +1,252 @@
+"""Which answers of a module are allowed: those of its twin, the device model with the same settings.
+
+Laws: settings, identity and refusals must be those of the twin, byte for byte. What a module measures, counts or
+remembers since its power-on is unknown: there, any value that a module of this type can send is allowed.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any, Self, cast
+
+from attrs import evolve, fields_dict
+
+from i7000 import dcon, modbus
+from i7000.device import Eeprom, Log, Signals, State, factory, power_on, step
+from i7000.errors import DecodeError, shown
+from i7000.frozen import frozen
+from i7000.host.procedures import NOT_SETTINGS, Snapshot
+from i7000.host.procedures.settings import known_settings
+from i7000.message import Query, Response
+from i7000.modbus import Area, Kind, Register
+from i7000.models import Firmware, series
+from i7000.profile import Profile
+from i7000.readings import Reading, Status
+from i7000.settings import Protocol
+
+__all__ = ["Answer", "Twin", "difference", "eeprom_of"]
+
+
+# --- the settings of a snapshot ---------------------------------------------------------------------------------------
+
+_TENTHS = frozenset({"host_watchdog_timeout", "temperature_offset"})
+_HUNDREDTHS = frozenset({"module_cjc_offset", "cjc_offset"})
+_SCALES = {**dict.fromkeys(_TENTHS, 10), **dict.fromkeys(_HUNDREDTHS, 100)}
+_FIELDS = {
+    "module_cjc_offset": "cjc_offset",
+    "sampling_rate": "sampling_rate_8_hz",
+    "type_code": "type_codes",
+    "temperature_offset": "channel_offsets",
+    "cjc_offset": "channel_cjc_offsets",
+}
+"""The fields of `Eeprom` that are not named as the settings; 7018 modules keep all offsets in one of them."""
+_7018_SERIES = series("7018")
+_OF_REPORTS = frozenset({"data_format", "filter", "fast_mode", "checksum"})
+_OF_LINE = frozenset({"baud_rate", "character_format"})
+_DATES = ("year", "month", "date", "hour", "minute", "second")
+_LOG_TUPLES: Mapping[str, tuple[str, ...]] = {"period": _DATES[3:], "start": _DATES, "end": _DATES}
+
+
+def eeprom_of(snapshot: Snapshot) -> Eeprom:
+    """Return the memory of a module with the settings of a snapshot; what was not read is as from the factory."""
+    known = known_settings(snapshot.model)
+    typed: dict[str, Any] = {name: known[name].values.typed(name, plain) for name, plain in snapshot.settings}
+    fields = _FIELDS | ({"cjc_offset": "channel_offsets"} if snapshot.model in _7018_SERIES else {})
+    memory = factory(snapshot.model, None if snapshot.firmware is None else Firmware(snapshot.firmware))
+    changes: dict[str, Any] = {"protocol": snapshot.protocol}
+    lists: dict[str, list[Any]] = {}
+    report: dict[str, Any] = {}
+    line: dict[str, Any] = {}
+    log: dict[str, Any] = {}
+    for name, of_people in typed.items():
+        base, _, channel = name.partition(".")
+        scale = 10 if fields.get(base) == "channel_offsets" else _SCALES.get(base)
+        value = of_people if scale is None else round(of_people * scale)
+        if base.startswith("log_"):
+            log[base.removeprefix("log_")] = value
+        elif base in _OF_REPORTS:
+            report[base] = value
+        elif base in _OF_LINE:
+            line[base] = value
+        elif channel:
+            lists.setdefault(fields.get(base, base), list(getattr(memory, fields.get(base, base))))[int(channel)] = (
+                value
+            )
+        elif base == "type_code":
+            changes["type_codes"] = (value,) * len(memory.type_codes)
+        else:
+            changes[fields.get(base, base)] = value
+    changes |= {name: tuple(values) for name, values in lists.items()}
+    changes["report_settings"] = evolve(memory.report_settings, **report)
+    changes["line_settings"] = evolve(memory.line_settings, **line)
+    if log:
+        changes["log"] = _log(memory.log, log)
+    return evolve(memory, **changes)
+
+
+def _log(log: Log, given: Mapping[str, Any]) -> Log:
+    changes: dict[str, Any] = {}
+    for field, parts in _LOG_TUPLES.items():
+        held = getattr(log, field)
+        changes[field] = tuple(given.get(f"{field}_{part}", old) for part, old in zip(parts, held, strict=True))
+    return evolve(
+        log, **changes, command=given.get("command", log.command), overwrite=bool(given.get("overwrite", log.overwrite))
+    )
+
+
+# --- the twin ---------------------------------------------------------------------------------------------------------
+
+
+@frozen
+class Answer:
+    """What the twin answers to a frame, and how to read it.
+
+    Shape: `wire` is None for silence. `query` is the command or request; None if the twin does not have it. `profile`
+        is that of the twin before the frame.
+    """
+
+    wire: bytes | None
+    query: Query[Any] | None
+    profile: Profile
+    enabled: int
+    """The mask of the channels that were on."""
+
+
+@frozen
+class Twin:
+    """The device model with the settings of the module under test."""
+
+    state: State
+
+    @classmethod
+    def of(cls, eeprom: Eeprom, now: float, *, init_switch: bool = False) -> Self:
+        """Return the twin of a module, after its power-on."""
+        return cls(power_on(eeprom, init_switch=init_switch, now=now))
+
+    def hear(self, frame: bytes, now: float) -> tuple["Twin", Answer]:
+        """Give the twin a whole frame; return it afterwards, with its answer."""
+        state, wire = step(self.state, frame, Signals(), max(now, self.state.clock))
+        return Twin(state), Answer(wire, _query(frame, self.state), self.state.profile, self.state.enabled)
+
+
+def _query(frame: bytes, state: State) -> Query[Any] | None:
+    decode: Any = modbus.decode_request if state.ram.protocol is Protocol.MODBUS_RTU else dcon.decode_command
+    try:
+        found: Query[Any] = decode(frame, state.profile)
+    except DecodeError:
+        return None
+    return found
+
+
+def difference(answer: Answer, heard: bytes) -> str | None:
+    """Return what is wrong with the answer of a module, in words; None if it is allowed."""
+    if heard == (answer.wire or b""):
+        return None
+    if answer.wire is None:
+        return f"answered {len(heard)} bytes where silence is right"
+    if not heard:
+        return "no answer"
+    return "another answer" if answer.query is None else _decoded_difference(answer, answer.query, answer.wire, heard)
+
+
+def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: bytes) -> str | None:
+    of_modbus = isinstance(query, modbus.Request)
+    decode: Any = modbus.decode_response if of_modbus else dcon.decode_response
+    try:
+        response = decode(heard, query, answer.profile)
+    except DecodeError as error:
+        return str(error)
+    expected = decode(right, query, answer.profile)
+    if type(response) is not type(expected):
+        return f"{type(response).__name__} where {type(expected).__name__} is right"
+    return (_modbus_difference if of_modbus else _dcon_difference)(answer, response, expected)
+
+
+# --- DCON -------------------------------------------------------------------------------------------------------------
+
+_UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon.CjcUpdateSetting)
+"""The responses that depend on what the module measures or remembers since its power-on."""
+
+
+def _dcon_difference(answer: Answer, response: Response, expected: Response) -> str | None:
+    if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
+        return _readings_difference(
+            answer, lambda: dcon.readings(response, answer.profile), range(len(response.values))
+        )
+    if isinstance(response, dcon.AnalogInput):
+        channel = cast(dcon.ReadAnalogInput, answer.query).channel
+        return _readings_difference(answer, lambda: (dcon.reading(response, channel, answer.profile),), (channel,))
+    if isinstance(response, _UNKNOWN):
+        return None
+    return _fields_difference(response, expected)
+
+
+def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int]) -> str | None:
+    if answer.profile.type_codes:
+        try:
+            readings = read()
+        except DecodeError as error:
+            return str(error)
+        for channel, reading in zip(channels, readings, strict=True):
+            disabled = not answer.enabled >> channel & 1
+            if disabled is not (reading.status is Status.DISABLED):
+                return f"channel {channel} is {'disabled, but not' if disabled else 'enabled, but'} blank"
+    return None
+
+
+def _fields_difference(response: Response, expected: Response) -> str:
+    for name in fields_dict(type(expected)):  # type: ignore[arg-type] # of an attrs class
+        value, right = getattr(response, name), getattr(expected, name)
+        if value != right:
+            return f"{name} is {shown(value)} where {shown(right)} is right"
+    return "another answer, which means the same"
+
+
+# --- Modbus -----------------------------------------------------------------------------------------------------------
+
+_REMEMBERED = frozenset(NOT_SETTINGS) | {
+    "range_status",
+    "cjc_temperature",
+    "reset_status",
+    "log_last_index",
+    "log_status",
+}
+"""The rows that depend on what the module measures or remembers."""
+
+
+def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:  # noqa: ANN401 - of any request
+    query: Any = answer.query
+    if response.area is None or query.first_item is None or not hasattr(response, "values"):
+        return _fields_difference(response, expected)
+    for at, (value, right) in enumerate(zip(response.values, expected.values, strict=False)):
+        place = _place(answer.profile, response.area, query.first_item + at)
+        if place is None:
+            continue
+        row, item = place
+        if row.kind in (Kind.READING, Kind.RECORD) or row.name in _REMEMBERED:
+            found = _item_difference(answer, row, item, value)
+        else:
+            found = None if value == right else f"{row.name} is {value} where {right} is right"
+        if found:
+            return f"{row.area.value}{row.address + item + 1:04d}: {found}"
+    return None
+
+
+def _place(profile: Profile, area: Area, address: int) -> tuple[Register, int] | None:
+    for row in _rows(evolve(profile, type_codes=())):
+        if row.area is area and row.address <= address < row.address + row.count:
+            return row, address - row.address
+    return None
+
+
+@lru_cache(maxsize=64)
+def _rows(profile: Profile) -> tuple[Register, ...]:
+    return tuple(modbus.RegisterMap(profile))
+
+
+def _item_difference(answer: Answer, row: Register, item: int, value: int) -> str | None:
+    if row.kind is Kind.READING and answer.profile.type_codes:
+        return _readings_difference(answer, lambda: modbus.readings((value,), answer.profile, channel=item), (item,))
+    number = value - 0x10000 if row.kind is Kind.INT16 and value > 0x7FFF else value
+    if row.minimum is not None and row.maximum is not None and not row.minimum <= number <= row.maximum:
+        return f"{row.name} is {number}, beyond {row.minimum}..{row.maximum}"
+    return None

@@ -1,0 +1,259 @@
+"""The module under test, as checks see it: what they send to it, and which of its answers are allowed.
+
+Laws: every method of a check ends, on every line. What the module should not answer is always followed by a sentinel, a
+plain read that every module answers: only its answer shows that the module was there and chose to be silent.
+"""
+
+from collections.abc import Iterable
+from random import Random
+from typing import Any, TypeVar
+
+from attrs import define, field
+
+from i7000 import dcon, modbus
+from i7000.conformance.guard import Guard
+from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
+from i7000.conformance.oracle import Answer, Twin, difference
+from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
+from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
+from i7000.message import Query, Response
+from i7000.models import Model
+from i7000.profile import Profile
+from i7000.settings import LineSettings, Protocol
+
+__all__ = ["Subject"]
+
+R = TypeVar("R", bound=Response)
+
+_TURNAROUND = 0.5
+"""The longest time in seconds that an answer may take to begin."""
+_REFUSAL = 0.15
+"""How long a module that should be silent is listened to before the sentinel."""
+_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
+_QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
+"""The silence in seconds that ends an answer."""
+
+
+@define
+class Subject:
+    """A module under test and its twin.
+
+    Shape: `twin` follows every frame that is sent to it, in the order of the steps.
+    Time: `timeout_scale` multiplies every time to listen; slow adapters and networks need more than 1.
+    """
+
+    twin: Twin
+    line: LineSettings = field(factory=LineSettings)
+    timeout_scale: float = 1.0
+    chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
+    now: float = 0.0
+    """The time of the line at the end of the last step."""
+    guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
+    """What may be sent; the port has a guard of its own."""
+    writes_left: int = 64
+    """How many frames may still change the EEPROM."""
+
+    @property
+    def protocol(self) -> Protocol:
+        """The protocol that the module uses now."""
+        return self.twin.state.ram.protocol
+
+    @property
+    def address(self) -> int:
+        """The address that the module has now."""
+        return self.twin.state.ram.address
+
+    @property
+    def profile(self) -> Profile:
+        """The profile of the module now."""
+        return self.twin.state.profile
+
+    @property
+    def model(self) -> Model:
+        """The model of the module."""
+        return self.profile.model
+
+    @property
+    def channels(self) -> range:
+        """The channels of the module now."""
+        return range(self.profile.channels)
+
+    @property
+    def enabled(self) -> list[int]:
+        """The channels that are on."""
+        return [channel for channel in self.channels if self.twin.state.enabled >> channel & 1]
+
+    @property
+    def sentinel(self) -> Query[Any]:
+        """The read that shows that the module is there: it always has the same answer."""
+        if self.protocol is Protocol.DCON:
+            return dcon.ReadModuleName(self.address)
+        return modbus.ReadModuleName(self.address)
+
+    def wire(self, query: Query[Any]) -> bytes:
+        """Return the frame of a command or request, even of one that the module does not have."""
+        encode: Any = modbus.encode if isinstance(query, modbus.Request) else dcon.encode
+        wire: bytes = encode(query, self.profile, force=True)
+        return wire
+
+    def seal(self, body: bytes) -> bytes:
+        """Return a frame with a right checksum or CRC around a body of any content: for DCON, without CR."""
+        return (
+            modbus.seal(body)
+            if self.protocol is Protocol.MODBUS_RTU
+            else dcon.seal(body, checksum=self.profile.checksum)
+        )
+
+    # --- on the line --------------------------------------------------------------------------------------------------
+
+    def send(self, *pieces: bytes | tuple[float, bytes], seconds: float = _TURNAROUND) -> Procedure[BytesHeard]:
+        """Send bytes as they are, and return all that is heard; the twin does not hear them.
+
+        Shape: pieces of a frame follow each other without a pause, or after one of so many seconds.
+        """
+        parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
+        for _, wire in parts:
+            self._admit(wire)
+        ends = b"\r" if self.protocol is Protocol.DCON else b""
+        quiet = _QUIET[self.protocol] * self.timeout_scale
+        delay = self.twin.state.response_delay
+        heard: BytesHeard = yield SendBytes(parts, seconds * self.timeout_scale + delay, quiet, ends)
+        self.now = heard.now
+        return heard
+
+    def _admit(self, wire: bytes) -> None:
+        """Let the guard see bytes, and count those that can change the EEPROM.
+
+        Errors: `GuardError`; `Skipped` if all writes of the run are used up.
+        """
+        self.guard, hazards = self.guard.judged(wire, self.line)
+        if hazards & _STORED:
+            if not self.writes_left:
+                raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
+            self.writes_left -= 1
+
+    def wait(self, seconds: float) -> Procedure[None]:
+        """Wait for so many seconds."""
+        yield Wait(seconds)
+        self.now += seconds
+
+    def tune(self, line: LineSettings) -> Procedure[None]:
+        """Change the line settings of the host."""
+        yield Tune(line)
+        self.line = line
+
+    def power_cycle(self, *, init_switch: bool = False) -> Procedure[None]:
+        """Switch the power off and on, that of the twin too; the host takes the line settings of the module then.
+
+        Errors: `Skipped` if the power has to be switched by hand.
+        """
+        if not (yield PowerCycle(init_switch)):
+            raise Skipped(SkipReason.NEEDS_HARDWARE, "the power would have to be switched off and on by hand")
+        self.twin = Twin.of(self.twin.state.eeprom, self.now, init_switch=init_switch)
+        yield from self.tune(self.twin.state.ram.line_settings)
+
+    # --- what is right ------------------------------------------------------------------------------------------------
+
+    def expect(self, query: Query[R]) -> Procedure[Any]:
+        """Send a command or request, and return the response, which is one that the twin allows.
+
+        Special: the value is None for a broadcast, and for a command that the twin does not answer.
+        Errors: `Difference`, `Unclear`.
+        """
+        wire = self.wire(query)
+        return (yield from self.expect_frame(wire))
+
+    def expect_frame(self, wire: bytes) -> Procedure[Any]:
+        """Send a whole frame, and return the decoded response, which is one that the twin allows."""
+        answer = self.hear(wire)
+        if answer.wire is None:
+            yield from self._silent((wire,))
+            return None
+        heard = (yield from self.send(wire)).wire
+        if not heard:
+            yield from self.alive(wire)
+        if found := difference(answer, heard):
+            raise self.wrong(found, wire, heard, _words(answer.wire))
+        return self.decoded(answer, heard)
+
+    def hear(self, wire: bytes) -> Answer:
+        """Give the twin a frame that is sent to the module, and return its answer."""
+        self.twin, answer = self.twin.hear(wire, self.now)
+        return answer
+
+    def decoded(self, answer: Answer, heard: bytes) -> Any:  # noqa: ANN401 - any response
+        """Return the response to the query of an answer; bytes if the twin does not have the query."""
+        if answer.query is None:
+            return heard
+        decode: Any = modbus.decode_response if isinstance(answer.query, modbus.Request) else dcon.decode_response
+        return decode(heard, answer.query, answer.profile)
+
+    def expect_one_of(self, wire: bytes, allowed: Iterable[bytes | None]) -> Procedure[bytes | None]:
+        """Send a frame that the twin does not hear; return which of the allowed answers came, None for silence.
+
+        Errors: `Difference`, `Unclear`.
+        """
+        allowed = tuple(allowed)
+        heard = (yield from self.send(wire, seconds=_REFUSAL if None in allowed else _TURNAROUND)).wire
+        if not heard:
+            yield from self.alive(wire)
+            if None in allowed:
+                return None
+        if heard not in allowed:
+            expected = " or ".join("silence" if it is None else _words(it) for it in allowed)
+            raise self.wrong("no answer" if not heard else "another answer", wire, heard, expected)
+        return heard
+
+    def silent(self, *pieces: bytes | tuple[float, bytes]) -> Procedure[None]:
+        """Send bytes that the module must not answer, then the sentinel: only that is answered.
+
+        Special: the twin does not hear the bytes.
+        Errors: `Difference`, `Unclear`.
+        """
+        yield from self._silent(pieces)
+
+    def _silent(self, pieces: Iterable[bytes | tuple[float, bytes]]) -> Procedure[None]:
+        parts = tuple(pieces)
+        sent = b"".join(piece[1] if isinstance(piece, tuple) else piece for piece in parts)
+        heard = (yield from self.send(*parts, seconds=_REFUSAL)).wire
+        if heard:
+            raise self.wrong(f"answered {len(heard)} bytes", sent, heard, "silence")
+        yield from self.alive(sent)
+
+    def alive(self, after: bytes) -> Procedure[None]:
+        """Send the sentinel, whose answer must be right: else nothing can be said about the frame before it.
+
+        Errors: `Unclear` if it is not answered, `Difference` for another answer.
+        """
+        wire = self.wire(self.sentinel)
+        answer = self.hear(wire)
+        heard = (yield from self.send(wire)).wire
+        if not heard:
+            raise Unclear("the module does not answer a plain read after it", sent=after + wire)
+        if heard != answer.wire:
+            text = "the next request has another answer"
+            raise self.wrong(text, after + wire, heard, f"silence, then {_words(answer.wire or b'')}")
+
+    def wrong(self, text: str, sent: bytes, received: bytes, expected: str) -> Difference:
+        """Return the error of an answer that is not allowed."""
+        return Difference(text, sent=sent, received=received, expected=expected)
+
+    # --- the frames of refusal ----------------------------------------------------------------------------------------
+
+    @property
+    def refused(self) -> bytes:
+        """The frame of a refusal by DCON: ``?AA``."""
+        return dcon.encode(dcon.Refused(self.address), self.profile)
+
+    def exception(self, function: int, code: int) -> bytes:
+        """Return the frame of an exception by Modbus."""
+        return modbus.seal(bytes((self.address, function | 0x80, code)))
+
+
+def _words(wire: bytes) -> str:
+    """Return a frame for people: as text if it is one."""
+    try:
+        text = wire.decode("ascii")
+    except UnicodeDecodeError:
+        return wire.hex(" ")
+    return text.removesuffix("\r") if text.removesuffix("\r").isprintable() else wire.hex(" ")
