@@ -1,18 +1,28 @@
 """The judgement of a line: scenes that break one rule each, and good conversations that break none."""
 
+from math import inf
+from random import Random
 from typing import Any
 
 import pytest
 from attrs import evolve
+from hypothesis import given
+from hypothesis import strategies as st
 
-from i7000 import Model, Profile, Protocol, dcon, modbus
-from i7000.conformance.judge import EEPROM_WRITES, Judge, Level, Rule, Side, verdict
+from i7000 import ArgumentError, InvalidValueError, Model, Profile, Protocol, dcon, modbus
+from i7000.conformance.judge import EEPROM_WRITES, Judge, Level, Rule, Side, judge, verdict
 from i7000.device import factory, power_on
-from i7000.dissect import Known
+from i7000.dissect import Knowledge, Known, Line, hear_frame
+from i7000.dissect.timing import Times
+from i7000.host.procedures import identify, snapshot
+from i7000.link import Line as HostLine
 from i7000.link import VirtualPort
-from tests.conformance.overheard import CHARACTER, conversation, judged, judged_frames, rules
-from tests.spec.lint import Record, vectors
+from i7000.link.observed import Observed, Received, Written
+from i7000.simulator.simulator import Simulated
+from tests.conformance.overheard import CHARACTER, Piece, conversation, judged, judged_frames, rules
+from tests.spec.lint import Record, stories, vectors
 from tests.vectors import profile_of
+from tests.workbench import EVERY_MODULE
 
 SOON, LONG = 0.05, 1.0
 PROFILE = Profile(Model.M_7019R)
@@ -190,3 +200,322 @@ def test_the_good_exchanges_of_the_vectors_break_no_must(folder: str) -> None:
 
     assert len(found) > 50
     assert {id_: ids for id_, ids in found.items() if ids} == {}
+
+
+def test_the_answered_exchanges_of_the_stories_break_no_must_but_the_forms_that_they_are_about() -> None:
+    wrong = {}
+    for story in stories():
+        line, state = Line(), Judge()
+        for step in story["steps"]:
+            for late, part in enumerate(("send", "expect") if step.get("expect") else ()):
+                wire, at = bytes.fromhex(step[part]["wire"]), step["at"] + late * 0.01
+                protocol = Protocol.DCON if step[part]["text"] else Protocol.MODBUS_RTU
+                line, heard = hear_frame(line, wire, protocol, sent=not late)
+                state, _ = judge(state, heard, line.knowledge, Times(at, at), sent=not late)
+        found = {rule for it in verdict(state).tallies for rule, _ in it.findings if rule.level is Level.MUST}
+        wrong[story["id"]] = found - {Rule.BOUNDS, Rule.NO_COMMAND}
+
+    assert len(wrong) > 50
+    assert {name: found for name, found in wrong.items() if found} == {}
+
+
+@pytest.mark.parametrize("case", EVERY_MODULE)
+def test_our_own_driver_breaks_nothing_on_any_model(case: Simulated) -> None:
+    pieces: list[Piece] = []
+
+    def observe(it: Observed) -> None:
+        if isinstance(it, Written):
+            pieces.extend((it.at + (at + 1) * CHARACTER, it.data[at : at + 1]) for at in range(len(it.data)))
+        elif isinstance(it, Received):
+            pieces.append((it.at, it.data))
+
+    with HostLine(VirtualPort([case]), observe=observe) as line:
+        found = line.run(identify(case.eeprom.address))
+        line.run(snapshot(case.eeprom.address, found.profile))
+
+    _, findings = judged(sorted(pieces, key=lambda piece: piece[0]), AT_PORT)
+
+    assert findings == []
+
+
+# --- what times can tell ----------------------------------------------------------------------------------------------
+
+
+def test_without_times_what_needs_them_is_counted_and_not_found() -> None:
+    frames = [b"#**\r", b"$012\r", b"!01050600\r", b"$012\r", b"$01M\r", OFFSET, READ]
+
+    state, findings = judged_frames(*((None, frame) for frame in frames))
+
+    assert findings == []
+    assert dict(verdict(state).untimed) == {
+        Rule.ASK_AFTER_BROADCAST: 1,
+        Rule.ASK_BEFORE_ANSWER: 3,
+        Rule.EEPROM_LOOP: 1,
+        Rule.LATE: 1,
+        Rule.DRIVER_GAP_BEFORE: 1,
+    }
+
+
+def test_without_a_baud_rate_no_silence_is_judged() -> None:
+    state, findings = judged_frames((0, READ), (0.001, INPUTS), state=Judge())
+
+    assert findings == []
+    assert dict(verdict(state).untimed) == {Rule.DRIVER_GAP_BEFORE: 1, Rule.MODULE_GAP_BEFORE: 1}
+
+
+def test_times_that_go_back_tell_nothing() -> None:
+    state, findings = judged_frames((0, b"#**\r"), (-5, b"$012\r"))
+
+    assert findings == []
+    assert dict(verdict(state).untimed) == {Rule.ASK_AFTER_BROADCAST: 1}
+
+
+def at(seconds: float, resolution: float = 0.0) -> Times:
+    return Times(seconds, seconds, resolution=resolution)
+
+
+@pytest.mark.parametrize(
+    ("resolution", "wait", "found"),
+    [(0.001, 0.001, True), (0.001, 0.002, False), (1.0, 0.0, False), (0.0, 0.001, True)],
+)
+def test_a_log_shows_what_the_digits_of_its_times_can_show(resolution: float, wait: float, *, found: bool) -> None:
+    line, first = hear_frame(Line(), b"#**\r", Protocol.DCON)
+    line, second = hear_frame(line, b"$012\r", Protocol.DCON)
+    state, _ = judge(Judge(), first, line.knowledge, at(8.0, resolution))
+    state, findings = judge(state, second, line.knowledge, at(8.0 + wait, resolution))
+
+    assert rules(findings) == [Rule.ASK_AFTER_BROADCAST] * found
+
+
+def test_frames_that_an_adapter_delivers_together_have_no_time_between_them() -> None:
+    state, findings = judged([(1.0, b"#**\r$012\r"), (1.1, READ + INPUTS)], AT_PORT)
+
+    assert rules(findings) == [Rule.ASK_BEFORE_ANSWER]
+    assert dict(verdict(state).untimed) == {
+        Rule.ASK_AFTER_BROADCAST: 1, Rule.MODULE_GAP_BEFORE: 1,
+    }  # fmt: skip
+
+
+def test_findings_about_short_times_are_withdrawn_if_an_answer_arrives_with_its_command() -> None:
+    early = [(1.0, b"#**\r"), (1.001, b"$012\r"), (1.1, b"!01050600\r")]
+    shown, findings = judged(early, AT_PORT)
+    lumped, more = judged([*early, (1.5, b"$012\r!01050600\r"), (2.0, b"#**\r"), (2.001, b"$012\r")], AT_PORT)
+
+    assert rules(findings) == rules(more) == [Rule.ASK_AFTER_BROADCAST]
+    assert (verdict(shown).findings(), verdict(shown).withdrawn) == (1, 0)
+    assert (verdict(lumped).findings(), verdict(lumped).withdrawn) == (0, 1)
+    assert dict(verdict(lumped).untimed) == {Rule.ASK_AFTER_BROADCAST: 1}
+
+
+def test_a_silence_inside_a_frame_that_an_adapter_explains_is_not_found() -> None:
+    _, findings = judged([(1.0, READ[:4]), (1.016, READ[4:]), (1.1, INPUTS)], AT_PORT)
+    _, long = judged([(1.0, READ[:4]), (1.03, READ[4:]), (1.1, INPUTS)], AT_PORT)
+
+    assert (rules(findings), rules(long)) == ([], [Rule.DRIVER_GAP_WITHIN])
+
+
+# --- turns, echoes and noise ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("wire", [b"$012\r", READ, b"#**\r"])
+def test_an_echo_is_not_judged(wire: bytes) -> None:
+    state, findings = judged_frames((0, wire), (0.01, wire))
+
+    assert findings == []
+    assert (verdict(state).frames, verdict(state).unjudged) == (1, 0)
+
+
+@pytest.mark.parametrize(("wire", "answer"), [(b"$012\r", b"!01050600\r"), (READ, INPUTS)])
+def test_a_command_that_is_sent_again_after_its_time_is_good(wire: bytes, answer: bytes) -> None:
+    state, findings = judged_frames((0, wire), (0.3, wire), (SOON, answer))
+
+    assert findings == []
+    assert verdict(state).frames == 3
+
+
+def test_a_request_that_is_sent_again_after_a_damaged_answer_is_not_an_echo() -> None:
+    state, findings = judged_frames((None, READ), (None, INPUTS[:-1] + b"\0"), (None, READ), (None, READ))
+
+    assert rules(findings) == [Rule.MODULE_CRC]
+    assert {(it.side, it.frames) for it in verdict(state).tallies} == {(Side.DRIVER, 2), (Side.MODULE, 1)}
+
+
+def test_what_is_not_like_a_frame_is_noise() -> None:
+    noise = (b"\xff", b"\xff\x00\xfe\x01\x02", sealed("010404")[:3])
+    state, findings = judged_frames(
+        *((LONG, it) for it in noise), (LONG, b"$012\r"), (SOON, b"xyz!!\r"), (SOON, b"x\r")
+    )
+
+    assert rules(findings) == [Rule.LEADING]
+    assert (verdict(state).frames, verdict(state).unjudged) == (2, 4)
+
+
+def test_pieces_of_a_damaged_frame_are_judged_once() -> None:
+    damaged = INPUTS[:-1] + b"\0"
+    _, findings = judged_frames((0, READ), (SOON, damaged), (0.001, damaged), (LONG, READ), (SOON, INPUTS))
+
+    assert rules(findings) == [Rule.MODULE_CRC]
+
+
+def test_the_side_of_a_damaged_frame_is_known_if_the_recording_says_it() -> None:
+    line, asked = hear_frame(Line(), READ, Protocol.MODBUS_RTU, sent=True)
+    line, damaged = hear_frame(line, READ[:-1] + b"\0", Protocol.MODBUS_RTU, sent=True)
+    state, _ = judge(Judge(), asked, line.knowledge, sent=True)
+
+    assert rules(judge(state, damaged, line.knowledge, sent=True)[1]) == [Rule.DRIVER_CRC]
+    assert rules(judge(state, damaged, line.knowledge, sent=False)[1]) == [Rule.MODULE_CRC]
+    assert rules(judge(Judge(), damaged, line.knowledge, sent=False)[1]) == []
+
+
+def test_answers_before_the_first_command_are_not_judged() -> None:
+    state, findings = judged_frames((0, b"!01050600\r"), (0.1, INPUTS))
+
+    assert findings == []
+    assert (verdict(state).frames, verdict(state).unjudged) == (0, 2)
+
+
+def test_a_write_after_the_time_of_an_answer_is_not_a_wrong_echo() -> None:
+    other = sealed("010500FF0000")
+
+    assert rules(judged_frames((0, COIL), (0.3, other))[1]) == []
+    assert rules(judged_frames((None, COIL), (None, other))[1]) == []
+
+
+def test_an_answer_by_the_other_protocol_is_not_judged() -> None:
+    state, findings = judged_frames((0, READ), (SOON, b"!01050600\r"))
+
+    assert findings == []
+    assert verdict(state).unjudged == 1
+
+
+def test_a_late_answer_by_modbus_is_found() -> None:
+    _, findings = judged_frames((0, NAME), (0.3, READ), (SOON, sealed("01460070190000")), (SOON, INPUTS))
+
+    assert rules(findings) == [Rule.LATE]
+
+
+def test_a_slow_module_is_waited_for_as_long_as_you_say() -> None:
+    scene = SCENES[Rule.LATE]
+
+    assert rules(judged_frames(*scene, state=Judge(bound=0.5))[1]) == []
+
+
+def test_other_modules_may_be_asked_while_one_calibrates() -> None:
+    answer = CALIBRATION
+    other = modbus.encode(modbus.ReadInputRegisters(2, 0, 1), PROFILE)
+    scene: Frames = [(0, CALIBRATION), (SOON, answer), (SOON, other), (0.3, CALIBRATION), (SOON, answer), (4.0, READ)]
+
+    assert rules(judged_frames(*scene)[1]) == [Rule.ASK_IN_CALIBRATION]
+
+
+@pytest.mark.parametrize("answer", [b"!01050600\r", b"!010506009F\r"])
+def test_a_checksum_setting_that_has_changed_withdraws_the_finding(answer: bytes) -> None:
+    state, findings = judged_frames((0, b"$012B7\r"), (SOON, SEALED), (SOON, b"$012\r"), (SOON, answer))
+    changed = not answer.startswith(b"!010506009F")
+
+    assert rules(findings)[:1] == [Rule.DRIVER_CHECKSUM_MISSING]
+    assert verdict(state).withdrawn == changed
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer", "rule"),
+    [
+        (b"$012B7\r", b"!01050640b1\r", Rule.MODULE_LOWER_CASE),
+        (b"$012\r", b"!01050600AA\r", Rule.LENGTH),
+        (b"$01M\r", b"!01\x7f\r", Rule.ALPHABET),
+        (READ, sealed("01040400"), Rule.LENGTH),
+        (modbus.encode(modbus.SetModuleAddress(1, 5), PROFILE), sealed("014604"), Rule.SETTINGS_LENGTH),
+    ],
+)
+def test_what_is_wrong_with_an_answer(asked: bytes, answer: bytes, rule: Rule) -> None:
+    _, findings = judged_frames((0, asked), (SOON, answer))
+
+    assert rules(findings) == [rule]
+
+
+@pytest.mark.parametrize(
+    ("known", "wire", "rule"),
+    [
+        (Known(checksum=True), b"$012\r", Rule.DRIVER_CHECKSUM_MISSING),
+        (Known(model=Model.I_7018), b"$01A\r", Rule.LACKS_COMMAND),
+        (Known(model=Model.I_7018), READ, Rule.LACKS_COMMAND),
+        (Known(model=Model.M_7017RMS), modbus.encode(modbus.ReadCjcOffset(1, 0), PROFILE), Rule.LACKS_COMMAND),
+        (Known(model=Model.I_7018, checksum=False), b"$012B7\r", Rule.DRIVER_CHECKSUM_UNEXPECTED),
+    ],
+)
+def test_what_is_wrong_with_a_command_for_a_module_that_is_known(known: Known, wire: bytes, rule: Rule) -> None:
+    _, findings = judged_frames((0, wire), known=known)
+
+    assert rules(findings) == [rule]
+
+
+# --- EEPROM -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_clock_and_the_logger_are_not_the_eeprom() -> None:
+    index = modbus.encode(modbus.WriteSingleRegister(1, 878, 1), Profile(Model.M_7017mC_16))
+
+    scene: Frames = [(0.3, it) for _ in range(2 * EEPROM_WRITES) for it in (index, index)]
+
+    assert Rule.EEPROM_LOOP not in rules(judged_frames(*scene)[1])
+
+
+def test_writes_that_are_minutes_apart_are_no_loop() -> None:
+    scene: Frames = [it for _ in range(2 * EEPROM_WRITES) for it in [(30.0, OFFSET), (SOON, b"!01\r")]]
+
+    assert rules(judged_frames(*scene)[1]) == []
+
+
+# --- any input --------------------------------------------------------------------------------------------------------
+
+WIRES = st.sampled_from([*{wire for scene in SCENES.values() for _, wire in scene}]) | st.binary(max_size=12)
+
+
+@given(st.lists(st.tuples(st.none() | st.floats(-1, 1), WIRES.filter(bool)), max_size=30), st.booleans())
+def test_nothing_raises_and_every_frame_is_counted_once(frames: Any, collecting: Any) -> None:
+    state, findings = judged_frames(*frames, state=evolve(AT_PORT, collecting=collecting))
+
+    found = verdict(state)
+    assert found.frames + found.unjudged <= len(frames)
+    assert found.findings() + found.withdrawn >= len(findings) - found.withdrawn
+    assert all(count > 0 for tally in found.tallies for _, count in tally.findings)
+
+
+def test_the_state_does_not_grow_with_the_input() -> None:
+    chance = Random(7)
+    wires = [wire for scene in SCENES.values() for _, wire in scene]
+    settings = [b"$%02X9+0001\r" % address for address in range(256)]
+    scene: Frames = [
+        (chance.choice([0.0, 0.001, 0.1, 1.0]), chance.choice(chance.choice([wires, settings]))) for _ in range(6000)
+    ]
+
+    state, findings = judged_frames(*scene)
+
+    assert findings
+    assert len(state.pauses) <= 2
+    assert len(state.writes) <= 257
+    assert all(len(times) <= EEPROM_WRITES for times in state.writes.values())
+    assert len(state.counts) <= 2 * 257
+    assert len(state.untimed) <= len(Rule)
+
+
+@pytest.mark.parametrize(
+    ("options", "name"),
+    [({"bound": -1.0}, "bound"), ({"bound": inf}, "bound"), ({"character_time": -1.0}, "character_time")],
+)
+def test_times_that_cannot_be_are_refused(options: dict[str, Any], name: str) -> None:
+    with pytest.raises(InvalidValueError) as refused:
+        Judge(**options)
+
+    assert refused.value.field == name
+
+
+def test_arguments_of_other_types_are_refused() -> None:
+    line, heard = hear_frame(Line(), b"$012\r", Protocol.DCON)
+    for arguments in ((1, heard, line.knowledge), (Judge(), 1, line.knowledge), (Judge(), heard, 1)):
+        with pytest.raises(ArgumentError):
+            judge(*arguments)  # type: ignore[arg-type]
+    with pytest.raises(ArgumentError):
+        judge(Judge(), heard, Knowledge(), 1.0)  # type: ignore[arg-type]
+    with pytest.raises(ArgumentError):
+        verdict(1)  # type: ignore[arg-type]

@@ -68,7 +68,7 @@ _END = _object(
         "untimed": _list(
             _object({"id": _ID, "count": _COUNT}), description="Not judged, because the times cannot tell."
         ),
-        "withdrawn": _COUNT | {"description": "Findings that do not count: the adapter collects bytes."},
+        "withdrawn": _COUNT | {"description": "Findings that do not count: what came later has explained them."},
         "unjudged": _COUNT | {"description": "Noise, and answers before the first command."},
         "damaged": _COUNT | {"description": "Places of the file that cannot be read."},
         "exit_code": _COUNT,

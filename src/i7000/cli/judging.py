@@ -155,8 +155,8 @@ def _end_lines(found: Verdict, broken: int, damaged: int) -> Iterator[Line]:
         yield [("not judged, because the times cannot tell:", "yellow")]
         yield from ([(f"{_INDENT}{rule.id}  {count}", "")] for rule, count in found.untimed)
     if found.withdrawn:
-        why = "an answer arrived together with its command, so the adapter collects bytes"
-        yield [(f"withdrawn: {_counted(found.withdrawn, 'finding')} about short times; {why}", "yellow")]
+        why = "the adapter collects bytes, so short times show nothing; or a module's checksum setting had changed"
+        yield [(f"withdrawn: {_counted(found.withdrawn, 'finding')}: {why}", "yellow")]
     if found.unjudged:
         yield [(f"not judged: {_counted(found.unjudged, 'piece')} of noise, or answers before the first command", "")]
     if damaged:

@@ -18,7 +18,7 @@ from i7000.conformance.judge_frames import Broken, answers, driver_broken, modul
 from i7000.conformance.judge_rules import Rule, Side
 from i7000.conformance.judge_state import Asked, Count, Finding, Judge, Pause, Tally, Verdict, verdict
 from i7000.conformance.statement import Level
-from i7000.dissect import Direction, Heard, Knowledge
+from i7000.dissect import Direction, Heard, Knowledge, Known
 from i7000.dissect.dcon import LEADS
 from i7000.dissect.timing import Times
 from i7000.settings import Protocol
@@ -30,6 +30,8 @@ EEPROM_WRITES = 10
 _LOOP = 60.0
 _LUMP = 0.02
 """The seconds that adapters can hold bytes back, and that an echo can take."""
+_ROUNDING = 1e-9
+"""The seconds by which the sum of times can be wrong."""
 _RTU = Protocol.MODBUS_RTU
 
 
@@ -139,6 +141,10 @@ _ANSWERABLE = (Rule.LACKS_COMMAND, Rule.BOUNDS)
 """What may be wrong with a frame that a module answers all the same, with ``?AA`` or an exception."""
 
 
+_CHECKSUMS = (Rule.DRIVER_CHECKSUM_MISSING, Rule.DRIVER_CHECKSUM_UNEXPECTED)
+_NOTHING_KNOWN = Known()
+
+
 class _Step:
     """A frame that is being judged: its findings, and the changes of the state."""
 
@@ -150,17 +156,20 @@ class _Step:
         self.changes: dict[str, Any] = {}
         self._place: tuple[Side, int | None] | None = None
         self._untimed: list[Rule] = []
+        self._withdrawn: tuple[Rule, int | None] | None = None
+        self._pause: Pause | None = None
 
     def judged(self) -> Judge:
         """Return the state after the frame."""
-        counts = self.state.counts
+        counts = dict(self.state.counts)
         if self._place is not None:
-            frames, _ = counts.get(self._place, Count())
-            counts = {**counts, self._place: Count(frames + 1, counts.get(self._place, Count()).findings)}
-        for finding in self.findings:
-            place = finding.rule.side, finding.address
-            frames, found = counts.get(place, Count())
-            counts = {**counts, place: Count(frames, {**found, finding.rule: found.get(finding.rule, 0) + 1})}
+            frames, findings = counts.get(self._place, Count())
+            counts[self._place] = Count(frames + 1, findings)
+        changes = [(finding.rule, finding.address, 1) for finding in self.findings]
+        changes += [] if self._withdrawn is None else [(*self._withdrawn, -1)]
+        for rule, address, change in changes:
+            frames, findings = counts.get((rule.side, address), Count())
+            counts[rule.side, address] = Count(frames, {**findings, rule: findings.get(rule, 0) + change})
         untimed = self.state.untimed
         for rule in self._untimed:
             untimed = {**untimed, rule: untimed.get(rule, 0) + 1}
@@ -170,6 +179,7 @@ class _Step:
             damaged=self.heard.error is not None,
             counts=counts,
             untimed=untimed,
+            withdrawn=self.state.withdrawn + (self._withdrawn is not None),
             **self.changes,
         )
 
@@ -187,7 +197,7 @@ class _Step:
         """
         since -= (self.state.character_time or 0.0) if self.state.collecting else 0.0
         resolution = self.times.resolution if self.times else 0.0
-        return since + resolution <= limit if resolution else since < limit
+        return since + resolution <= limit if resolution else since < limit - _ROUNDING
 
     def _above(self, since: float, limit: float) -> bool:
         return since - (self.times.resolution if self.times else 0.0) > limit
@@ -209,7 +219,7 @@ class _Step:
         self._judge_writes(address)
         self.changes |= {
             "asked": asked if asked.silent is None else None,
-            "earlier": state.asked,
+            "earlier": None if state.asked is not None and state.asked.wire == heard.wire else state.asked,
             "answered": None if asked.silent is None else asked,
             "late": False,
         }
@@ -233,15 +243,13 @@ class _Step:
                 to_all = heard.protocol is _RTU
                 silent = Rule.ANSWERS_MODBUS_BROADCAST if to_all else Rule.ANSWERS_BROADCAST
                 rule = Rule.ASK_AFTER_MODBUS_BROADCAST if to_all else Rule.ASK_AFTER_BROADCAST
+        broken_rule = broken and broken.rule
         asked = Asked(
-            heard.place, heard.wire, heard.protocol, heard.address, self.times, seconds, faulty=faulty, silent=silent
+            heard.place, heard.wire, heard.protocol, heard.address, self.times, seconds, faulty, broken_rule, silent
         )
         if seconds:
             self._pause = Pause(rule, asked, seconds, name)
         return asked
-
-    _pause: Pause | None = None
-    """The pause that begins with this frame."""
 
     def _judge_pauses(self, address: int | None) -> None:
         left = []
@@ -336,7 +344,14 @@ class _Step:
         address = heard.address if heard.address is not None else before.address
         self._place = Side.MODULE, address
         where = before.place.where
-        if before.silent is not None:
+        if (
+            before.broken is not None
+            and before.broken in _CHECKSUMS
+            and not module_broken(heard, before.place, before.wire, _NOTHING_KNOWN)
+        ):
+            self._withdrawn = before.broken, before.address
+            self.changes |= {"answered": before._replace(broken=None, silent=None)}
+        elif before.silent is not None:
             self._find(before.silent, f"an answer to {where}", address)
         elif address == before.address:
             self._find(Rule.SECOND_ANSWER, f"{where} was answered before", address)

@@ -66,6 +66,8 @@ def module_broken(heard: Heard, place: Place, asked: bytes, known: Known) -> Bro
     if not heard.contradictions:
         return None
     rule = _of_checksum(heard, Rule.MODULE_CHECKSUM_MISSING, Rule.MODULE_CHECKSUM_UNEXPECTED)
+    if rule is not None and (rule is Rule.MODULE_CHECKSUM_MISSING) is not _is_sealed(asked):
+        return None  # It answers as it was asked: its setting has changed, as it does at a power-on.
     return Broken(rule or Rule.CONTRADICTION, "; ".join(heard.contradictions))
 
 
@@ -99,6 +101,15 @@ def _reads(body: bytes, asked: bytes | None, known: Known) -> bool:
     return meaning.misfit is None and (asked is None or meaning.command is not None)
 
 
+def _is_sealed(command: bytes) -> bool:
+    """Return whether a command has a checksum: without its last digits it is one, and they are the sum of it."""
+    body = command.rstrip(b"\r")
+    return body[-_SUM:] == b"%02X" % dcon.checksum(body[:-_SUM]) and _reads(body[:-_SUM], None, _PLAIN)
+
+
+_PLAIN = Known(checksum=False)
+
+
 def _of_command(wire: bytes, error: DecodeError, known: Known) -> Rule:
     body = wire.rstrip(b"\r\n")
     plain, either = evolve(known, checksum=False), evolve(known, checksum=None)
@@ -130,7 +141,7 @@ _ANSWER_RULES: Mapping[Fault, Rule] = {
 def _of_dcon_answer(wire: bytes, error: DecodeError, asked: bytes, known: Known) -> Rule:
     body, command = wire.rstrip(b"\r\n"), asked.rstrip(b"\r")
     plain = evolve(known, checksum=False)
-    sealed = known.checksum or not _reads(command, None, plain)
+    sealed = _is_sealed(asked)
     command = (command[:-_SUM] if sealed else command) + b"\r"
     if error.fault is Fault.TERMINATOR:
         return Rule.MODULE_TERMINATOR

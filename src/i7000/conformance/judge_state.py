@@ -52,6 +52,8 @@ class Asked(NamedTuple):
     """The seconds that the module works after it."""
     faulty: bool = False
     """Whether it has a wrong form, which a module may answer with an exception."""
+    broken: Rule | None = None
+    """The rule that it breaks by itself."""
     silent: Rule | None = None
     """The rule that an answer to it breaks; None if it has an answer."""
 
@@ -110,6 +112,8 @@ class Judge:
     counts: _Places = field(factory=dict, kw_only=True)
     untimed: Mapping[Rule, int] = field(factory=dict, kw_only=True)
     """How often a rule could not be judged, because the times cannot tell."""
+    withdrawn: int = field(default=0, kw_only=True)
+    """Findings that what came later has explained."""
     unjudged: int = field(default=0, kw_only=True)
     """Pieces that are not like a frame of either side, and answers to what was asked before the listener came."""
 
@@ -148,7 +152,8 @@ class Verdict(NamedTuple):
     untimed: tuple[tuple[Rule, int], ...]
     """The rules that could not be judged for some frames, because the times cannot tell; and for how many."""
     withdrawn: int
-    """The number of findings about short times that do not count: an adapter collects bytes."""
+    """The number of findings that do not count. An adapter collects bytes, and they are about short times; or a module
+    answered a command in spite of its checksum, so that its setting had changed."""
     unjudged: int
     """The number of pieces that were not judged: noise, and answers before the first command."""
 
@@ -166,10 +171,10 @@ class Verdict(NamedTuple):
 def verdict(state: Judge) -> Verdict:
     """Return the judgement of all that was heard, by side and address."""
     check_type("state", state, Judge)
-    withdrawn = 0
+    withdrawn = state.withdrawn
     tallies = []
     for (side, address), (frames, findings) in sorted(state.counts.items(), key=_order):
-        kept = tuple((rule, findings[rule]) for rule in Rule if rule in findings and not (rule.brief and state.lumps))
+        kept = tuple((rule, findings[rule]) for rule in Rule if findings.get(rule) and not (rule.brief and state.lumps))
         withdrawn += sum(findings.values()) - sum(count for _, count in kept)
         tallies.append(Tally(side, address, frames, kept))
     return Verdict(tuple(tallies), _by_rule(state.untimed), withdrawn, state.unjudged)
