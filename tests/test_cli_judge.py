@@ -66,6 +66,12 @@ def test_findings_and_the_verdict_of_a_log_are_shown(run: Run, tmp_path: Path) -
     assert (told.code, told.out, told.err) == (1, SHOWN, "")
 
 
+def test_the_guide_shows_a_finding_as_it_is_printed() -> None:
+    guide = (Path(__file__).parents[1] / "docs" / "judge_a_line.md").read_text("utf-8")
+
+    assert "".join(SHOWN.splitlines(keepends=True)[:4]) in guide
+
+
 def test_a_good_log_is_kept(run: Run, tmp_path: Path) -> None:
     told = run("listen", log(tmp_path, GOOD), "--judge")
 

@@ -1,5 +1,6 @@
 """The judgement of a line: scenes that break one rule each, and good conversations that break none."""
 
+from itertools import accumulate
 from math import inf
 from random import Random
 from typing import Any
@@ -112,6 +113,18 @@ def test_a_scene_breaks_its_rule_and_no_other(rule: Rule) -> None:
 
     assert rules(findings) == [*BEFORE.get(rule, []), rule]
     assert findings[-1].what
+
+
+@pytest.mark.parametrize("rule", [rule for rule in SCENES if rule is not Rule.ORDER], ids=lambda rule: rule.id)
+def test_the_same_is_found_in_a_stream_of_both_protocols(rule: Rule) -> None:
+    scene = [(wait or 0.0, wire) for wait, wire in SCENES[rule]]
+    pieces = list(
+        zip(accumulate((wait for wait, _ in scene), initial=100.0), [b"", *(wire for _, wire in scene)], strict=True)
+    )
+
+    _, findings = judged(pieces, known=KNOWN.get(rule))
+
+    assert rules(findings) == [*BEFORE.get(rule, []), rule]
 
 
 @pytest.mark.parametrize("rule", HALVES, ids=lambda rule: rule.id)
