@@ -11,7 +11,7 @@ from i7000.cli.judge_schema import SCHEMA
 from i7000.cli.readers import stamped
 from i7000.dissect.timing import Times
 from i7000.link import LinkError
-from i7000.recording import Carried, End, Start, text
+from i7000.recording import Carried, End, Record, Start, text
 from tests.terminal import Run, Told, plain, run
 from tests.test_cli_listen import REQUEST, RESPONSE, listened
 
@@ -46,8 +46,9 @@ def log(folder: Path, data: bytes, name: str = "bus.log") -> str:
 
 
 def recorded(folder: Path, *carried: tuple[float, bytes], program: str = "i7000 proxy", end: bool = True) -> str:
-    lines = [Start("2026-11-30T12:00:00+00:00", program, "0", "COM3"), *(Carried(at, wire) for at, wire in carried)]
-    data = "".join(f"{text(it)}\n" for it in [*lines, *([End(99.0)] if end else [])])
+    began = Start("2026-11-30T12:00:00+00:00", program, "0", "COM3")
+    records: list[Record] = [began, *[Carried(at, wire) for at, wire in carried]]
+    data = "".join(f"{text(it)}\n" for it in records + [End(99.0)] * end)
     return log(folder, data.encode(), "bus.jsonl")
 
 

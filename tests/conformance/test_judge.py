@@ -244,6 +244,7 @@ def test_our_own_driver_breaks_nothing_on_any_model(case: Simulated) -> None:
 
     with HostLine(VirtualPort([case]), observe=observe) as line:
         found = line.run(identify(case.eeprom.address))
+        assert found.profile
         line.run(snapshot(case.eeprom.address, found.profile))
 
     _, findings = judged(sorted(pieces, key=lambda piece: piece[0]), AT_PORT)
@@ -525,9 +526,10 @@ def test_times_that_cannot_be_are_refused(options: dict[str, Any], name: str) ->
 
 def test_arguments_of_other_types_are_refused() -> None:
     line, heard = hear_frame(Line(), b"$012\r", Protocol.DCON)
-    for arguments in ((1, heard, line.knowledge), (Judge(), 1, line.knowledge), (Judge(), heard, 1)):
+    wrong: list[Any] = [(1, heard, line.knowledge), (Judge(), 1, line.knowledge), (Judge(), heard, 1)]
+    for arguments in wrong:
         with pytest.raises(ArgumentError):
-            judge(*arguments)  # type: ignore[arg-type]
+            judge(*arguments)
     with pytest.raises(ArgumentError):
         judge(Judge(), heard, Knowledge(), 1.0)  # type: ignore[arg-type]
     with pytest.raises(ArgumentError):

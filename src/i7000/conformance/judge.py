@@ -12,14 +12,20 @@ from typing import Any
 
 from attrs import evolve
 
-from i7000 import dcon, modbus
 from i7000.arguments import check_type
-from i7000.conformance.judge_frames import Broken, answers, driver_broken, module_broken, resembles, writes_eeprom
+from i7000.conformance.judge_frames import (
+    Broken,
+    answers,
+    driver_broken,
+    duty_after,
+    module_broken,
+    writes_eeprom,
+)
 from i7000.conformance.judge_rules import Rule, Side
+from i7000.conformance.judge_sides import LUMP, side_of, since_of
 from i7000.conformance.judge_state import Asked, Count, Finding, Judge, Pause, Tally, Verdict, verdict
 from i7000.conformance.statement import Level
-from i7000.dissect import Direction, Heard, Knowledge, Known
-from i7000.dissect.dcon import LEADS
+from i7000.dissect import Heard, Knowledge, Known
 from i7000.dissect.timing import Times
 from i7000.settings import Protocol
 
@@ -28,8 +34,6 @@ __all__ = ["EEPROM_WRITES", "Finding", "Judge", "Level", "Rule", "Side", "Tally"
 EEPROM_WRITES = 10
 """More writes than these within a minute, to one module, are a loop."""
 _LOOP = 60.0
-_LUMP = 0.02
-"""The seconds that adapters can hold bytes back, and that an echo can take."""
 _ROUNDING = 1e-9
 """The seconds by which the sum of times can be wrong."""
 _RTU = Protocol.MODBUS_RTU
@@ -54,85 +58,13 @@ def judge(
     check_type("heard", heard, Heard)
     check_type("knowledge", knowledge, Knowledge)
     check_type("times", times, Times, optional=True)
-    side = _side(state, heard, times, sent)
+    side = side_of(state, heard, times, sent)
     if side is None:
         noise = heard.same_as is None
         return evolve(state, last=times, damaged=noise, unjudged=state.unjudged + noise), ()
     step = _Step(state, heard, times)
     (step.of_driver if side is Side.DRIVER else step.of_module)(knowledge)
     return step.judged(), tuple(step.findings)
-
-
-# --- whose frame it is ------------------------------------------------------------------------------------------------
-
-
-def _side(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> Side | None:  # noqa: FBT001
-    """Return the side that a frame came from; None for noise and echoes."""
-    if heard.error is None and heard.same_as is not None:
-        return None if _is_echo(state, heard, times) else Side.DRIVER
-    if heard.direction is Direction.RESPONSE:
-        return _module_or_noise(state, heard)
-    if heard.direction is not None:
-        return Side.MODULE if _is_wrong_echo(state, heard, times, sent) else Side.DRIVER
-    return _side_of_damage(state, heard, times, sent)
-
-
-def _is_echo(state: Judge, heard: Heard, times: Times | None) -> bool:
-    """Return whether what is the same as the last command is its echo, and not the command again."""
-    before = state.asked or state.answered
-    since = None if before is None else _since(before.times, times)
-    if since is None:
-        return heard.direction is Direction.ECHO and state.asked is not None
-    return since <= _LUMP + len(heard.wire) * (state.character_time or 0.0)
-
-
-def _module_or_noise(state: Judge, heard: Heard) -> Side | None:
-    """Return the module for a response, and for text in its place; None for other noise."""
-    asked = state.asked
-    if heard.protocol is Protocol.DCON and heard.wire[:1] not in LEADS:
-        meant = asked is not None and asked.protocol is Protocol.DCON and len(heard.wire) >= len("!AA\r")
-        return Side.MODULE if meant and heard.wire.endswith(b"\r") else None
-    return Side.MODULE
-
-
-_ECHO = len("afssvvcc")
-"""Bytes of every answer to a write."""
-
-
-def _is_wrong_echo(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> bool:  # noqa: FBT001
-    """Return whether what reads as a request is an answer that does not repeat its request."""
-    asked = state.asked
-    if sent or asked is None or heard.protocol is not _RTU or asked.wire[:2] != heard.wire[:2]:
-        return False
-    if len(heard.wire) != _ECHO:
-        return False
-    since = _since(asked.times, times)
-    message: Any = heard.meanings[0].message
-    return message.broadcast and since is not None and since <= state.bound
-
-
-def _side_of_damage(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> Side | None:  # noqa: FBT001
-    """Return the side that a damaged Modbus frame came from: the one whose turn it is."""
-    asked = state.asked
-    since = _since(state.last, times)
-    fragment = state.damaged and since is not None and since < _LUMP
-    if len(heard.wire) < modbus.SHORTEST_FRAME or fragment:
-        return None
-    since = None if asked is None else _since(asked.times, times)
-    turn = asked is not None and not (since is not None and since > state.bound)
-    if sent is not None:
-        turn = not sent
-    if turn:
-        meant = asked is not None and asked.protocol is _RTU and resembles(heard.wire, asked.wire)
-        return Side.MODULE if meant else None
-    return Side.DRIVER if resembles(heard.wire, None) else None
-
-
-def _since(earlier: Times | None, times: Times | None) -> float | None:
-    """Return the seconds from the end of one frame to the beginning of another; None if the times cannot tell."""
-    if earlier is None or times is None or times.began < earlier.ended:
-        return None
-    return times.began - earlier.ended
 
 
 # --- a frame ----------------------------------------------------------------------------------------------------------
@@ -188,7 +120,7 @@ class _Step:
         self.findings.append(Finding(rule, heard.place, address, heard.protocol, heard.wire, what, self.times))
 
     def _since(self, earlier: Times | None) -> float | None:
-        return _since(earlier, self.times)
+        return since_of(earlier, self.times)
 
     def _below(self, since: float, limit: float) -> bool:
         """Return whether a time is certainly below a limit, as fine as the times are written.
@@ -235,11 +167,9 @@ class _Step:
         rule = Rule.ASK_IN_CALIBRATION
         if silent is None and len(heard.meanings) == 1:
             (meaning,) = heard.meanings
-            message: Any = meaning.message
-            codec: Any = modbus if heard.protocol is _RTU else dcon
-            seconds = min(codec.pause_after(message, profile) for profile in meaning.fit.profiles)
-            name = type(message).__name__
-            if not codec.is_answered(message):
+            seconds, is_answered = duty_after(meaning)
+            name = type(meaning.message).__name__
+            if not is_answered:
                 to_all = heard.protocol is _RTU
                 silent = Rule.ANSWERS_MODBUS_BROADCAST if to_all else Rule.ANSWERS_BROADCAST
                 rule = Rule.ASK_AFTER_MODBUS_BROADCAST if to_all else Rule.ASK_AFTER_BROADCAST
@@ -393,7 +323,7 @@ class _Step:
             self._untimed.append(before)  # No module answers in no time: both have the time of the exchange.
         elif since is not None and self._below(since, silence):
             self._gap(before, since, f"{_time(since)} after the frame before: {_time(silence)} needed", address)
-        longest = silence + (_LUMP if state.collecting else 0.0)
+        longest = silence + (LUMP if state.collecting else 0.0)
         if times.gap > longest:
             self._gap(within, times.gap, f"a silence of {_time(times.gap)}: {_time(silence)} ends a frame", address)
 

@@ -5,7 +5,7 @@ checksum, another CRC), and the first mistake that explains the error names the 
 """
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any, NamedTuple
 
 from attrs import evolve
@@ -19,7 +19,7 @@ from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
 
-__all__ = ["Broken", "answers", "driver_broken", "module_broken", "resembles", "writes_eeprom"]
+__all__ = ["Broken", "answers", "driver_broken", "duty_after", "module_broken", "resembles", "writes_eeprom"]
 
 _RTU = Protocol.MODBUS_RTU
 
@@ -223,6 +223,14 @@ def resembles(wire: bytes, asked: bytes | None) -> bool:
         _, heard = hear_frame(Line(protocol=_RTU), modbus.seal(wire[:-2]), _RTU, sent=asked is None)
         return heard.error is None
     return bool(body)
+
+
+@lru_cache(maxsize=256)
+def duty_after(meaning: Meaning) -> tuple[float, bool]:
+    """Return the seconds that every module which a command can be for needs after it, and whether it is answered."""
+    message: Any = meaning.message
+    codec: Any = modbus if isinstance(message, modbus.Message) else dcon
+    return min(codec.pause_after(message, profile) for profile in meaning.fit.profiles), codec.is_answered(message)
 
 
 # --- EEPROM -----------------------------------------------------------------------------------------------------------
