@@ -355,13 +355,13 @@ def test_a_request_that_is_sent_again_after_a_damaged_answer_is_not_an_echo() ->
 
 
 def test_what_is_not_like_a_frame_is_noise() -> None:
-    noise = (b"\xff", b"\xff\x00\xfe\x01\x02", sealed("010404")[:3])
+    noise = (b"\xff" * 300, b"\xff", b"\xff\x00\xfe\x01\x02", sealed("010404")[:3])
     state, findings = judged_frames(
         *((LONG, it) for it in noise), (LONG, b"$012\r"), (SOON, b"xyz!!\r"), (SOON, b"x\r")
     )
 
     assert rules(findings) == [Rule.LEADING]
-    assert (verdict(state).frames, verdict(state).unjudged) == (2, 4)
+    assert (verdict(state).frames, verdict(state).unjudged) == (2, 5)
 
 
 def test_pieces_of_a_damaged_frame_are_judged_once() -> None:
@@ -393,6 +393,13 @@ def test_a_write_after_the_time_of_an_answer_is_not_a_wrong_echo() -> None:
 
     assert rules(judged_frames((0, COIL), (0.3, other))[1]) == []
     assert rules(judged_frames((None, COIL), (None, other))[1]) == []
+
+
+def test_a_longer_write_is_not_a_wrong_echo() -> None:
+    coils = modbus.encode(modbus.WriteMultipleCoils(1, 255, (True,)), PROFILE)
+    others = modbus.encode(modbus.WriteMultipleCoils(1, 255, (False,)), PROFILE)
+
+    assert rules(judged_frames((0, coils), (SOON, others))[1]) == [Rule.ASK_BEFORE_ANSWER]
 
 
 def test_an_answer_by_the_other_protocol_is_not_judged() -> None:

@@ -192,18 +192,19 @@ class _Step:
             elif since is None:
                 self._untimed.append(rule)
             elif self._below(since, seconds):
-                self._brief(rule, since, f"{_time(since)} after {name}, {asked.place.where}: {_time(seconds)} needed")
+                what = f"{_time(since)} after {name}, {asked.place.where}: {_time(seconds)} needed"
+                self._brief(rule, since, what, address)
                 left += [pause] if rule is Rule.ASK_IN_CALIBRATION else []
         left = [pause for pause in left if self._pause is None or pause.asked.address != self._pause.asked.address]
         self.changes["pauses"] = (*left, *([self._pause] if self._pause else []))
 
-    def _brief(self, rule: Rule, since: float, what: str) -> None:
+    def _brief(self, rule: Rule, since: float, what: str, address: int | None) -> None:
         """Find a breach of a rule about times, unless the adapter explains it."""
         hidden = self.state.lumps or (self.state.collecting and since == 0.0)
         if rule.brief and hidden:
             self._untimed.append(rule)
         else:
-            self._find(rule, what, self.heard.address)
+            self._find(rule, what, address)
 
     def _judge_turn(self, address: int | None) -> None:
         asked = self.state.asked
@@ -322,16 +323,10 @@ class _Step:
         if since == 0.0 and before is Rule.MODULE_GAP_BEFORE:
             self._untimed.append(before)  # No module answers in no time: both have the time of the exchange.
         elif since is not None and self._below(since, silence):
-            self._gap(before, since, f"{_time(since)} after the frame before: {_time(silence)} needed", address)
+            self._brief(before, since, f"{_time(since)} after the frame before: {_time(silence)} needed", address)
         longest = silence + (LUMP if state.collecting else 0.0)
         if times.gap > longest:
-            self._gap(within, times.gap, f"a silence of {_time(times.gap)}: {_time(silence)} ends a frame", address)
-
-    def _gap(self, rule: Rule, since: float, what: str, address: int | None) -> None:
-        if self.state.lumps or (self.state.collecting and since == 0.0):
-            self._untimed.append(rule)
-        else:
-            self._find(rule, what, address)
+            self._brief(within, times.gap, f"a silence of {_time(times.gap)}: {_time(silence)} ends a frame", address)
 
 
 def _time(seconds: float) -> str:

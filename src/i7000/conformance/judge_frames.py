@@ -216,13 +216,13 @@ def resembles(wire: bytes, asked: bytes | None) -> bool:
     if asked is not None and wire[0] == asked[0] and wire[1] & ~EXCEPTION_BIT == asked[1]:
         return True
     try:
-        body = modbus.unseal(wire)
+        modbus.unseal(wire)
     except DecodeError as error:
         if error.fault is not Fault.CRC:
             return False
         _, heard = hear_frame(Line(protocol=_RTU), modbus.seal(wire[:-2]), _RTU, sent=asked is None)
         return heard.error is None
-    return bool(body)
+    return True
 
 
 @lru_cache(maxsize=256)
