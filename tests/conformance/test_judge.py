@@ -47,7 +47,7 @@ SCENES: dict[Rule, Frames] = {
     Rule.ASK_AFTER_BROADCAST: [(0, b"#**\r"), (0.0015, b"$012\r")],
     Rule.ASK_AFTER_MODBUS_BROADCAST: [(0, BROADCAST), (0.0019, b"$012\r")],
     Rule.ASK_IN_CALIBRATION: [(0, CALIBRATION), (SOON, CALIBRATION), (SOON, READ)],
-    Rule.ASK_BEFORE_ANSWER: [(0, b"$012\r"), (0.1, b"$01M\r"), (SOON, b"!017018\r")],
+    Rule.ASK_BEFORE_ANSWER: [(0, b"$012\r"), (SOON, b"$01M\r"), (SOON, b"!017018\r")],
     Rule.TAKES_LATE_ANSWER: [(0, b"$022\r"), (0.3, b"$012\r"), (0.01, b"!02050600\r"), (0.01, b"$01M\r")],
     Rule.DRIVER_CHECKSUM_MISSING: [(0, b"$012B7\r"), (SOON, SEALED), (SOON, b"$01M\r")],
     Rule.DRIVER_CHECKSUM_UNEXPECTED: [(0, b"$012\r"), (SOON, b"!01050600\r"), (SOON, b"$01MD2\r")],
@@ -413,6 +413,11 @@ def test_a_late_answer_by_modbus_is_found() -> None:
     _, findings = judged_frames((0, NAME), (0.3, READ), (SOON, sealed("01460070190000")), (SOON, INPUTS))
 
     assert rules(findings) == [Rule.LATE]
+
+
+def test_a_driver_may_ask_again_after_half_of_the_time_of_an_answer() -> None:
+    assert rules(judged_frames((0, b"$012\r"), (0.1, b"$01M\r"))[1]) == []
+    assert rules(judged_frames((0, b"$012\r"), (0.1, b"$01M\r"), state=Judge(bound=0.3))[1]) == [Rule.ASK_BEFORE_ANSWER]
 
 
 def test_a_slow_module_is_waited_for_as_long_as_you_say() -> None:

@@ -213,7 +213,7 @@ class _Step:
         since = self._since(asked.times)
         if since is None:
             self._untimed.append(Rule.ASK_BEFORE_ANSWER)
-        elif self._below(since, self.state.bound):
+        elif self._below(since, self.state.bound / 2):
             rule = Rule.TAKES_LATE_ANSWER if self.state.late else Rule.ASK_BEFORE_ANSWER
             what = f"{_time(since)} after {asked.place.where}, which has no answer yet"
             if self.state.late:

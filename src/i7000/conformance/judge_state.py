@@ -81,7 +81,8 @@ _Places = Mapping[tuple[Side, int | None], Count]
 class Judge:
     """A line that is judged.
 
-    Shape: `bound` is the time in which an answer has to begin. `character_time` is the length of a character on the
+    Shape: `bound` is the time in which an answer has to begin; a driver has to wait for half of it, as times differ
+        from driver to driver and the manual has none. `character_time` is the length of a character on the
         line; without it, the silences between Modbus frames are not judged. `collecting`: the times are those at which
         an adapter delivered the bytes, so that bytes which arrived together have no time between them. The other fields
         are the state.
