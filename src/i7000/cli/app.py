@@ -8,6 +8,7 @@ from typing import Literal
 from cyclopts import App, CycloptsError, UnusedCliTokensError
 
 from i7000.cli.backup import backup
+from i7000.cli.check import check
 from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.diff import diff
@@ -18,6 +19,7 @@ from i7000.cli.options import address_of
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
+from i7000.cli.report import report
 from i7000.cli.restore import restore
 from i7000.cli.scan import scan
 from i7000.cli.send import send
@@ -40,6 +42,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
+    check, report,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())

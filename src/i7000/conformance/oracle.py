@@ -16,7 +16,7 @@ from i7000.errors import DecodeError, shown
 from i7000.frozen import frozen
 from i7000.host.procedures import NOT_SETTINGS, Snapshot
 from i7000.host.procedures.settings import known_settings
-from i7000.message import Query
+from i7000.message import Query, Response
 from i7000.modbus import Area, Kind, Register
 from i7000.models import Firmware, Model, series
 from i7000.profile import Profile
@@ -24,7 +24,7 @@ from i7000.readings import Reading, Status
 from i7000.settings import Protocol
 from i7000.type_codes import MIXED
 
-__all__ = ["Answer", "Twin", "difference", "eeprom_of"]
+__all__ = ["Answer", "Twin", "difference", "eeprom_of", "rows_of"]
 
 
 # --- the settings of a snapshot ---------------------------------------------------------------------------------------
@@ -140,34 +140,37 @@ def _query(frame: bytes, state: State) -> Query[Any] | None:
 
 def difference(answer: Answer, heard: bytes) -> str | None:
     """Return what is wrong with the answer of a module, in words; None if it is allowed."""
-    if answer.wire is None:
-        return f"answered {len(heard)} bytes where silence is right" if heard else None
-    if heard == answer.wire:
+    if heard == (answer.wire or b""):
         return None
+    if answer.wire is None:
+        return f"answered {len(heard)} bytes where silence is right"
     if not heard:
         return "no answer"
-    if answer.query is None:
-        return "another answer"
-    decode: Any = modbus.decode_response if isinstance(answer.query, modbus.Request) else dcon.decode_response
+    return "another answer" if answer.query is None else _decoded_difference(answer, answer.query, answer.wire, heard)
+
+
+def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: bytes) -> str | None:
+    of_modbus = isinstance(query, modbus.Request)
+    decode: Any = modbus.decode_response if of_modbus else dcon.decode_response
     try:
-        response = decode(heard, answer.query, answer.profile)
-        expected = decode(answer.wire, answer.query, answer.profile)
+        response = decode(heard, query, answer.profile)
     except DecodeError as error:
         return str(error)
+    expected = decode(right, query, answer.profile)
     if type(response) is not type(expected):
         return f"{type(response).__name__} where {type(expected).__name__} is right"
-    if isinstance(answer.query, modbus.Request):
-        return _modbus_difference(answer, response, expected)
-    return _dcon_difference(answer, response, expected)
+    return (_modbus_difference if of_modbus else _dcon_difference)(answer, response, expected)
 
 
 # --- DCON -------------------------------------------------------------------------------------------------------------
 
+_BLANK = series("7019")
+"""The models whose disabled channels are blanks (E25)."""
 _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon.CjcUpdateSetting)
 """The responses that depend on what the module measures or remembers since its power-on."""
 
 
-def _dcon_difference(answer: Answer, response: Any, expected: Any) -> str | None:
+def _dcon_difference(answer: Answer, response: Response, expected: Response) -> str | None:
     if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
         return _readings_difference(
             answer, lambda: dcon.readings(response, answer.profile), range(len(response.values))
@@ -181,6 +184,7 @@ def _dcon_difference(answer: Answer, response: Any, expected: Any) -> str | None
 
 
 def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int]) -> str | None:
+    """Compare readings by their shape; what a disabled channel has is known of the fields of few models only (E25)."""
     if answer.profile.type_codes:
         try:
             readings = read()
@@ -188,13 +192,16 @@ def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], 
             return str(error)
         for channel, reading in zip(channels, readings, strict=True):
             disabled = not answer.enabled >> channel & 1
-            if disabled is not (reading.status is Status.DISABLED):
-                return f"channel {channel} is {'not ' if disabled else ''}blank, but it is {'dis' if disabled else 'en'}abled"
+            blank = reading.status is Status.DISABLED
+            if disabled and not blank and answer.profile.model in _BLANK:
+                return f"channel {channel} is disabled, but not blank"
+            if blank and not disabled:
+                return f"channel {channel} is enabled, but blank"
     return None
 
 
-def _fields_difference(response: Any, expected: Any) -> str:
-    for name in fields_dict(type(expected)):
+def _fields_difference(response: Response, expected: Response) -> str:
+    for name in fields_dict(type(expected)):  # type: ignore[arg-type] # of an attrs class
         value, right = getattr(response, name), getattr(expected, name)
         if value != right:
             return f"{name} is {shown(value)} where {shown(right)} is right"
@@ -217,7 +224,7 @@ _ANY_OF_ITS_FIELDS = (modbus.CjcUpdateSetting, modbus.FirmwareVersion)
 """The responses of function 46h that are not known from the settings, or whose bytes are open (E75)."""
 
 
-def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:
+def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:  # noqa: ANN401 - of any request
     query: Any = answer.query
     if isinstance(response, _ANY_OF_ITS_FIELDS):
         return None
@@ -247,12 +254,22 @@ def _firmware(profile: Profile) -> str | None:
     return None if profile.firmware is None else profile.firmware.text
 
 
+def rows_of(profile: Profile) -> tuple[Register, ...]:
+    """Return the rows of the address map of a module."""
+    return _rows_of(evolve(profile, type_codes=()))
+
+
+@lru_cache(maxsize=64)
+def _rows_of(profile: Profile) -> tuple[Register, ...]:
+    return tuple(modbus.RegisterMap(profile))
+
+
 @lru_cache(maxsize=64)
 def _places(model: Model, firmware: str | None) -> Mapping[Area, Mapping[int, tuple[Register, int]]]:
     """Return the row of each address of a map, and the place of the item in its row."""
     profile = Profile(model, firmware=None if firmware is None else Firmware(firmware), type_codes=())
     found: dict[Area, dict[int, tuple[Register, int]]] = {area: {} for area in Area}
-    for row in modbus.RegisterMap(profile):
+    for row in rows_of(profile):
         found[row.area] |= {row.address + at: (row, at) for at in range(row.count)}
     return found
 
