@@ -16,9 +16,11 @@ from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
 from i7000.cli.options import address_of
+from i7000.cli.provoke import provoke
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
+from i7000.cli.replay import replay
 from i7000.cli.report import report
 from i7000.cli.restore import restore
 from i7000.cli.scan import scan
@@ -42,7 +44,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    check, report,
+    check, report, replay, provoke,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())

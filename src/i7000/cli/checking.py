@@ -17,7 +17,7 @@ from typing import IO, Any
 
 from attrs import define, frozen
 
-from i7000 import InvalidValueError, Protocol
+from i7000 import InvalidValueError, Protocol, spec
 from i7000.cli.asked import LEFT_CHANGED, Asked
 from i7000.cli.durations import seconds
 from i7000.cli.module import named
@@ -33,14 +33,14 @@ from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
 from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run, exit_code, plan, selected
 from i7000.conformance.settle import Settled, settle
-from i7000.conformance.statement import Statement, statements
+from i7000.conformance.statement import Statement
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
 from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, Observed, Received, VirtualPort, Written
 from i7000.link.guarded import GuardedPort
 
-__all__ = ["Wishes", "explained", "listed", "run"]
+__all__ = ["Wishes", "allowed_of", "explained", "listed", "run"]
 
 _INTERRUPTED = 128 + signal.SIGINT
 _LARGEST_BASELINE = 1 << 20
@@ -97,7 +97,7 @@ def _settings(wishes: Wishes) -> Settings:
     if wishes.certify and (wishes.select or wishes.baseline):
         raise UsageError("--certify checks everything: leave out the selection and --baseline")
     try:
-        ids = selected(wishes.select)
+        ids = selected(spec.statements(), wishes.select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     low, high = _SCALES
@@ -121,17 +121,26 @@ def _settings(wishes: Wishes) -> Settings:
     return Settings(ids, options, _reports(wishes.reports), _baseline(wishes))
 
 
-def _allowed(wishes: Wishes) -> frozenset[Hazard]:
+def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:
+    """Return what the texts of --allow allow.
+
+    Errors: `UsageError`.
+    """
     hazards = []
-    for text in wishes.allow:
+    for text in texts:
         if text not in _ASKED_FOR:
             raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
         hazards.append(_ASKED_FOR[text])
-    if Hazard.COMM in hazards and not wishes.can_power_cycle:
-        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
-    if Hazard.CALIBRATION in hazards and wishes.confirm is None:
-        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
     return allowing(hazards)
+
+
+def _allowed(wishes: Wishes) -> frozenset[Hazard]:
+    allowed = allowed_of(wishes.allow)
+    if Hazard.COMM in allowed and not wishes.can_power_cycle:
+        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
+    if Hazard.CALIBRATION in allowed and wishes.confirm is None:
+        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
+    return allowed
 
 
 def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
@@ -176,7 +185,7 @@ def _baseline(wishes: Wishes) -> frozenset[str]:
     failures = document.get("failures")
     if not isinstance(failures, dict):
         raise UsageError(f"{file}: this is not a baseline: write one with --baseline-update")
-    unknown = sorted(set(failures) - set(statements()))
+    unknown = sorted(set(failures) - set(spec.statements()))
     if unknown:
         raise UsageError(f"{file}: there is no check {unknown[0]}")
     return frozenset(failures)
@@ -197,12 +206,12 @@ def _write_baseline(path: str, results: Iterable[CheckResult]) -> None:
 def listed(select: tuple[str, ...]) -> int:
     """List the checks, one a line; return the exit code."""
     try:
-        ids = selected(select)
+        ids = selected(spec.statements(), select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     printer = Printer()
     width = max(map(len, ids))
-    for statement in statements().values():
+    for statement in spec.statements().values():
         if statement.id in ids:
             hazards = ",".join(hazard.value for hazard in Hazard if hazard in statement.hazards)
             printer.lines(
@@ -220,12 +229,12 @@ def listed(select: tuple[str, ...]) -> int:
 def explained(text: str) -> int:
     """Explain a check; return the exit code."""
     try:
-        ids = selected([text])
+        ids = selected(spec.statements(), [text])
     except InvalidValueError as error:
         raise UsageError(error) from None
     if text not in ids:
         raise UsageError(f"--explain {text}: give one id; see i7000 check --list {text}")
-    printer, statement = Printer(), statements()[text]
+    printer, statement = Printer(), spec.statements()[text]
     printer.lines(_explanation(statement))
     return 0
 
@@ -305,7 +314,8 @@ class _Checking:
         self._check_name(before)
         eeprom = eeprom_of(before)
         profile = power_on(eeprom, now=0.0).profile
-        planned = plan(self._settings.ids, profile, there.protocol, options.allowed)
+        chosen = [it for it in spec.statements().values() if it.id in self._settings.ids]
+        planned = plan(chosen, profile, there.protocol, options.allowed)
         self._keep(before, there)
         one = Run(planned, eeprom, options, line=open_line.line.line, checksum=there.profile.checksum)
         with ExitStack() as stack:
@@ -355,6 +365,7 @@ class _Checking:
         self._record(
             start_record(
                 version=version("i7000"),
+                spec_sha256=spec.digest(),
                 time=datetime.now(UTC).isoformat(),
                 target=self._asked.target,
                 seed=self._wishes.seed,

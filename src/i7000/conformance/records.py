@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from typing import Any
 
-from i7000 import spec
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.run import CheckResult
 from i7000.conformance.settle import Settled
@@ -25,7 +24,6 @@ __all__ = [
     "as_line",
     "check_record",
     "end_record",
-    "spec_digest",
     "start_record",
     "wire_record",
 ]
@@ -39,28 +37,10 @@ Record = dict[str, Any]
 _json = json.JSONEncoder(ensure_ascii=True, allow_nan=False).encode
 
 
-def spec_digest() -> str:
-    """Return the SHA-256 of all files of ``spec/``, each with its name before it."""
-    digest = sha256()
-    left = [("", spec.files())]
-    files = []
-    while left:
-        path, folder = left.pop()
-        for entry in folder.iterdir():
-            name = f"{path}/{entry.name}" if path else entry.name
-            if entry.is_dir():
-                left.append((name, entry))
-            elif name.endswith((".json", ".md")):
-                files.append((name, entry))
-    for name, file in sorted(files, key=lambda it: it[0]):
-        digest.update(f"{name}\n".encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
-
-
 def start_record(  # noqa: PLR0913 - each of them is a fact
     *,
     version: str,
+    spec_sha256: str,
     time: str,
     target: str,
     seed: int,
@@ -78,7 +58,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "record": "run-start",
         "schema_version": SCHEMA_VERSION,
         "version": version,
-        "spec_sha256": spec_digest(),
+        "spec_sha256": spec_sha256,
         "manual": MANUAL,
         "time": time,
         "target": target,

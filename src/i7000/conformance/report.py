@@ -175,27 +175,25 @@ def _types(settings: dict[str, Any], model: Model | None) -> tuple[TypeCode, ...
 def _frames(line: Line, records: Iterable[dict[str, Any]]) -> tuple[Line, tuple[Frame, ...]]:
     found = []
     for sent, group in groupby(records, key=lambda it: it.get("from") == "host"):
-        pieces = list(group)
-        seconds = pieces[0].get("seconds")
-        at = float(seconds) if isinstance(seconds, int | float) else 0.0
-        for wire in _wires(pieces, sent=sent):
+        pieces = [(_seconds(piece), _wire(piece)) for piece in group]
+        if not sent:  # it comes in any pieces
+            pieces = [(pieces[0][0], b"".join(wire for _, wire in pieces))]
+        for at, wire in pieces:
             line, heard = hear_frame(line, wire, line.protocol or Protocol.DCON, sent=sent)
             found.append(Frame(at, sent, wire, _words(heard)))
     return line, tuple(found)
 
 
-def _wires(pieces: list[dict[str, Any]], *, sent: bool) -> Iterator[bytes]:
-    """Yield what was written at a time; what was read comes in any pieces."""
-    data = []
-    for piece in pieces:
-        try:
-            data.append(bytes.fromhex(str(piece.get("wire"))))
-        except ValueError:
-            data.append(b"")
-    if sent:
-        yield from data
-    else:
-        yield b"".join(data)
+def _seconds(record: dict[str, Any]) -> float:
+    seconds = record.get("seconds")
+    return float(seconds) if isinstance(seconds, int | float) else 0.0
+
+
+def _wire(record: dict[str, Any]) -> bytes:
+    try:
+        return bytes.fromhex(str(record.get("wire")))
+    except ValueError:
+        return b""
 
 
 def _words(heard: Heard) -> str:

@@ -128,7 +128,6 @@ def receiver(sent: Uart, heard: Uart) -> Callable[[bytes], bytes]:
     rate = sent.rate * _steps_of(sent)
     count = heard.data_bits + 2 + (heard.parity != "N")
     samples = [(2 * bit + 1) * rate // (2 * heard.rate) for bit in range(count)]
-    width = samples[-1] + 1
     length = -((1 - 2 * count) * rate // (2 * heard.rate))
 
     @lru_cache(maxsize=8192)

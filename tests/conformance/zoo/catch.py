@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from attrs import evolve, frozen
 
+from i7000 import spec
 from i7000.conformance.hazard import Hazard, allowing
 from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.run import CheckResult, Options, Run, plan, selected
@@ -39,7 +40,9 @@ def examined(animal: Animal, eeprom: Eeprom, *allow: Hazard, select: tuple[str, 
     with Line(GuardedPort(port, allowed), eeprom.line_settings) as line:
         taken = line.run(snapshot(eeprom.address, profile, eeprom.protocol))
         held = eeprom_of(taken)
-        planned = plan(selected(select), power_on(held, now=0.0).profile, eeprom.protocol, allowed)
+        ids = selected(spec.statements(), select)
+        chosen = [it for it in spec.statements().values() if it.id in ids]
+        planned = plan(chosen, power_on(held, now=0.0).profile, eeprom.protocol, allowed)
         options = Options(allowed=allowed)
         one = Run(planned, held, options, line=line.line, checksum=profile.checksum)
         line.run(one.procedure())
