@@ -283,6 +283,9 @@ def _item_difference(answer: Answer, row: Register, value: int, right: int) -> s
             row.name == "module_name" and value.to_bytes(2, "big") in (name[:2], name[2:])
         )  # in which order, is open (E75)
         or (row.name == "module_type_code" and right == MIXED)  # E81
+        or (
+            row.name == "channel_mask" and answer.profile.model is Model.M_7018_16 and not (value ^ right) & 0xFF
+        )  # E12
         or (row.kind is Kind.INT8 and not (value ^ right) & 0xFF)  # the high byte is open (E62)
     ):
         return None

@@ -28,6 +28,7 @@ from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason, Skipped, SkipReason, Unclear
 from i7000.host.procedures import Procedure
 from i7000.modbus import Area, Kind, Register
+from i7000.models import Model
 from i7000.type_codes import TypeCode
 
 __all__ = ["STEPS", "WRITTEN"]
@@ -70,7 +71,8 @@ def _other_mask(first: int) -> Other:
     """
 
     def other(module: Subject, value: int) -> int:
-        channels = module.channels[first : first + 16]
+        most = 8 if module.model is Model.M_7018_16 else 16  # E12
+        channels = module.channels[first : first + most]
         if not channels:
             raise Skipped(SkipReason.NOT_APPLICABLE, f"{module.profile.name} has no channel {first} in this mode")
         return value ^ 1 << module.chance.choice(channels) - first

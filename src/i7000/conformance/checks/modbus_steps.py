@@ -24,6 +24,7 @@ from i7000.modbus.register_map import READERS
 __all__ = [
     "ADDRESS",
     "ADDRESS_OR_VALUE",
+    "FUNCTION",
     "MOST",
     "VALUE",
     "address_changed",
@@ -41,6 +42,7 @@ __all__ = [
     "write_of",
 ]
 
+FUNCTION = (ExceptionCode.ILLEGAL_FUNCTION,)
 ADDRESS, VALUE = (ExceptionCode.ILLEGAL_DATA_ADDRESS,), (ExceptionCode.ILLEGAL_DATA_VALUE,)
 ADDRESS_OR_VALUE = ADDRESS + VALUE
 LOOK = 0.2
