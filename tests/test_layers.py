@@ -46,8 +46,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "codecs", "collections", "contextlib", "decimal", "enum", "functools", "itertools", "json", "linecache",
-    "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "codecs", "collections", "contextlib", "decimal", "enum", "fnmatch", "functools", "itertools", "json",
+    "linecache", "math", "operator", "re", "struct", "types", "typing",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

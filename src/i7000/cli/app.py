@@ -24,6 +24,7 @@ from i7000.cli.send import send
 from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
+from i7000.cli.vectors import DELIMITER, vectors
 from i7000.cli.words import UsageError
 from i7000_cli import CLOSED, INTERRUPTED
 
@@ -40,6 +41,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
+    vectors,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())
@@ -56,6 +58,8 @@ def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
 def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == [vectors.__name__] and DELIMITER in arguments:  # cyclopts drops the first of these
+        arguments = [*arguments[: arguments.index(DELIMITER)], DELIMITER, *arguments[arguments.index(DELIMITER) :]]
     try:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former
