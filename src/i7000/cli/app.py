@@ -58,8 +58,9 @@ def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
 def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
-    if arguments[:1] == [vectors.__name__] and DELIMITER in arguments:  # cyclopts drops the first of these
-        arguments = [*arguments[: arguments.index(DELIMITER)], DELIMITER, *arguments[arguments.index(DELIMITER) :]]
+    if arguments and arguments[0] == vectors.__name__ and DELIMITER in arguments:  # cyclopts drops the first of these
+        at = arguments.index(DELIMITER)
+        arguments = [*arguments[:at], DELIMITER, *arguments[at:]]
     try:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former

@@ -25,12 +25,32 @@ from i7000.conformance.vector_verdicts import (
 )
 from i7000.conformance.vectors import Case
 
-__all__ = ["MOST_RESTARTS", "OPEN", "Codec"]
+__all__ = ["FINISHING", "MOST_RESTARTS", "OPEN", "STARTING", "Codec"]
 
 OPEN = 64
 """The cases that are sent before the oldest is answered."""
 MOST_RESTARTS = 20
 """How often a process that failed is started again."""
+
+STARTING = 30.0
+"""The seconds that a program may take to start, if an answer may not take longer."""
+
+FINISHING = 5.0
+"""The seconds that a program may take to end."""
+
+
+class _FailedError(Exception):
+    """A process that failed: why, the end of its standard error, and the cases that were open."""
+
+    def __init__(self, fault: MessageError, stderr: str, cases: tuple[Case, ...]) -> None:
+        super().__init__(fault)
+        self.fault, self.stderr, self.cases = fault, stderr, cases
+
+    def errors(self, waiting: deque[Case]) -> Iterator[Judged]:
+        """Yield an error for the case that was open; if none was, since no process can be started, for all others."""
+        yield from (error(case, self.fault, self.stderr) for case in self.cases)
+        while waiting and not self.cases:
+            yield error(waiting.popleft(), self.fault)
 
 
 class Codec:
@@ -48,6 +68,7 @@ class Codec:
         self._seq = 0
         self._awaited = 0
         self._process: CodecProcess | None = None
+        self._given_up: MessageError | None = None
         try:
             self.implementation = self._started()
         except MessageError as fault:
@@ -55,38 +76,49 @@ class Codec:
 
     def run(self, cases: Sequence[Case]) -> Iterator[Judged]:
         """Yield the verdict of each case."""
-        waiting, sent = deque(cases), deque[Case]()
-        alone = 0
+        waiting = deque(cases)
+        while waiting:
+            try:
+                yield from self._together(waiting)
+            except _FailedError as failure:
+                yield from self._one_by_one(failure) if len(failure.cases) > 1 else failure.errors(waiting)
+
+    def _together(self, waiting: deque[Case]) -> Iterator[Judged]:
+        """Yield the verdicts of cases of which some are open at once.
+
+        Errors: `_FailedError` if the process fails.
+        """
+        sent: deque[Case] = deque()
         while waiting or sent:
             try:
-                process = self._process or self._restarted()
-                self._fill(process, waiting, sent, 1 if alone else OPEN)
-                case = sent[0]
-                answer = read_answer(process.receive(self._timeout), self._awaited) if self._has(case) else None
+                self._fill(waiting, sent)
+                found = self._judged(sent[0])
             except MessageError as fault:
-                errors = self.kill()
-                if fault.reason is Reason.NOT_RUN:
-                    yield from (error(it, fault) for it in waiting)
-                    return
-                if sum(map(self._has, sent)) > 1:
-                    alone = len(sent)
-                    waiting.extendleft(reversed(sent))
-                    sent.clear()
-                    continue
-                yield error(sent.popleft(), fault, errors)
-                waiting.extendleft(reversed(sent))
-                sent.clear()
-            else:
-                sent.popleft()
-                self._awaited += answer is not None
-                yield skipped(case, Reason.NOT_IMPLEMENTED) if answer is None else judged(case, answer)
-            alone = max(0, alone - 1)
+                raise _FailedError(fault, self.kill(), tuple(sent)) from None
+            sent.popleft()
+            yield found
+
+    def _one_by_one(self, failure: "_FailedError") -> list[Judged]:
+        """Return the verdicts of the cases that were open at a failure; at least one of them is an error."""
+        found = []
+        is_repeated = False
+        for case in failure.cases:
+            try:
+                self._fill(deque([case]), deque())
+                found.append(self._judged(case))
+            except MessageError as fault:
+                is_repeated = True
+                found.append(error(case, fault, self.kill()))
+        if not is_repeated:
+            cause = MessageError(failure.fault.reason, f"{failure.fault.text}; not when it was run again alone")
+            found[0] = error(failure.cases[0], cause, failure.stderr)
+        return found
 
     def stop(self) -> None:
         """End the implementation, as the protocol says; `note` has what was wrong with that."""
         if self._process:
             self._process.send(stop_message(self._seq))
-            self.note = self._process.finish(self._timeout)
+            self.note = self._process.finish(FINISHING)
         self.kill()
 
     def kill(self) -> str:
@@ -100,23 +132,40 @@ class Codec:
     def _has(self, case: Case) -> bool:
         return case.operation in self.implementation.operations
 
-    def _fill(self, process: CodecProcess, waiting: deque[Case], sent: deque[Case], most: int) -> None:
+    def _fill(self, waiting: deque[Case], sent: deque[Case]) -> None:
         """Send cases until as many are open as may be; those of an unknown operation are not sent."""
-        while waiting and len(sent) < most:
+        process = self._process or self._restarted()
+        while waiting and len(sent) < OPEN:
             case = waiting.popleft()
             sent.append(case)
             if self._has(case):
                 process.send(run_message(self._seq, case))
                 self._seq += 1
 
+    def _judged(self, case: Case) -> Judged:
+        """Return the verdict of the oldest open case."""
+        if not self._has(case):
+            return skipped(case, Reason.NOT_IMPLEMENTED)
+        assert self._process  # noqa: S101 - the case was sent to it
+        answer = read_answer(self._process.receive(self._timeout), self._awaited)
+        self._awaited += 1
+        return judged(case, answer)
+
     def _restarted(self) -> CodecProcess:
-        if self.restarts == MOST_RESTARTS:
-            raise MessageError(Reason.NOT_RUN, f"the implementation failed {MOST_RESTARTS + 1} times")
+        """Start another process, if that still makes sense.
+
+        Errors: `MessageError` with `Reason.NOT_RUN`, from the first time on that it does not start.
+        """
+        if self._given_up is None and self.restarts == MOST_RESTARTS:
+            self._given_up = MessageError(Reason.NOT_RUN, f"the implementation failed {MOST_RESTARTS + 1} times")
+        if self._given_up is not None:
+            raise self._given_up
         self.restarts += 1
         try:
             self._started()
         except (MessageError, LineError) as fault:
-            raise MessageError(Reason.NOT_RUN, f"the implementation does not start again: {fault}") from None
+            self._given_up = MessageError(Reason.NOT_RUN, f"the implementation does not start again: {fault}")
+            raise self._given_up from None
         assert self._process  # noqa: S101 - it was just started
         return self._process
 
@@ -127,7 +176,7 @@ class Codec:
             raise LineError(f"{self._command[0]}: {getattr(failure, 'strerror', None) or failure}") from None
         self._process.send(start_message(0))
         try:
-            found = read_started(self._process.receive(self._timeout), 0)
+            found = read_started(self._process.receive(max(self._timeout, STARTING)), 0)
         except MessageError as fault:
             errors = self.kill()
             raise MessageError(fault.reason, f"{fault.text}{errors and f'; {errors}'}") from None

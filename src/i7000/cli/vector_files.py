@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from functools import cache
 from hashlib import sha256
 from importlib.resources.abc import Traversable
 
@@ -11,6 +12,7 @@ from i7000.conformance.vectors import Vector, vectors_of
 __all__ = ["all_vectors", "spec_digest"]
 
 
+@cache
 def all_vectors() -> tuple[Vector, ...]:
     """Return every vector, file by file."""
     return tuple(

@@ -228,7 +228,7 @@ class _Run:
         return [
             *_table("file", tally.files),
             *_table("operation", tally.operations),
-            *([[(f"cases without a verdict of their own: {', '.join(reasons)}", "")]] if reasons else []),
+            *([[(f"skipped cases and errors: {', '.join(reasons)}", "")]] if reasons else []),
             [
                 (f"{about.name} {about.version} ({about.language}): ", "bold"),
                 (f"{counts.total()} vectors: {', '.join(words)}".replace("PASS", f"PASS{partial}"), ""),

@@ -277,33 +277,27 @@ _FILES = {
 def selected(vectors: Sequence[Vector], name: str) -> dict[str, frozenset[str]]:
     """Return the operations that a name selects of each vector, by id; empty for an unknown name.
 
-    Shape: an id, a file or folder, with or without its ending, an operation or the part before its point, a glob of one
-        of these (``dcon-2.1?-*``), or else the beginning of an id.
+    Shape: the first of these that there is: an id; an operation; a file, with or without its ending; a folder; a file
+        without its folder; a glob of ids, operations or files (``dcon-2.1?-*``); the beginning of ids.
     """
-    found: dict[str, frozenset[str]] = {}
-    matches = _matching(name)
-    for vector in vectors:
-        operations = frozenset(case.operation for case in vector.cases)
-        if not matches(vector.id) and not any(map(matches, _file_names(vector.file))):
-            operations = frozenset(it for it in operations if matches(it) or matches(it.partition(".")[0]))
-        if operations:
-            found[vector.id] = operations
-    if found:
-        return found
-    return {
-        vector.id: frozenset(case.operation for case in vector.cases)
-        for vector in vectors
-        if vector.id.startswith(name)
-    }
+    for matches in _ways(name):
+        found = {
+            vector.id: frozenset(case.operation for case in vector.cases if matches(vector, case.operation))
+            for vector in vectors
+        }
+        if any(found.values()):
+            return {key: operations for key, operations in found.items() if operations}
+    return {}
 
 
-def _matching(name: str) -> Callable[[str], bool]:
+def _ways(name: str) -> Iterator[Callable[[Vector, str], bool]]:
+    """Yield the ways in which a name can select an operation of a vector, the narrowest first."""
+    file = name if name.endswith(".json") else f"{name}.json"
+    yield lambda vector, _: vector.id == name
+    yield lambda _, operation: operation == name
+    yield lambda vector, _: vector.file == file
+    yield lambda vector, _: vector.file.startswith(f"{name}/")
+    yield lambda vector, _: vector.file.endswith(f"/{file}")
     if re.search(r"[*?\[]", name):
-        return lambda text: fnmatchcase(text, name)
-    return lambda text: text == name
-
-
-def _file_names(file: str) -> tuple[str, ...]:
-    """Return the names of a file: with its folder or without, with its ending or without; and that of its folder."""
-    folder, _, name = file.partition("/")
-    return file, name, file.removesuffix(".json"), name.removesuffix(".json"), folder
+        yield lambda vector, operation: any(fnmatchcase(it, name) for it in (vector.id, operation, vector.file))
+    yield lambda vector, _: vector.id.startswith(name)
