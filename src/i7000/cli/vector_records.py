@@ -163,8 +163,8 @@ def junit(results: Iterable[Result], implementation: Implementation) -> bytes:
             for tag, message, text in _junit_children(result):
                 SubElement(test, tag, message=_xml(message)).text = _xml(text)
     indent(root)
-    text: bytes = tostring(root, encoding="us-ascii", xml_declaration=True)
-    return text + b"\n"
+    xml: bytes = tostring(root, encoding="us-ascii", xml_declaration=True)
+    return xml + b"\n"
 
 
 def _junit_children(result: Result) -> Iterator[tuple[str, str, str]]:
