@@ -40,7 +40,7 @@ class Options:
     """How a run is carried out.
 
     Shape: `writes` is the most frames that may change the EEPROM, `seconds` the longest time after which no check is
-        begun; None is no limit.
+        begun; None means any time.
     """
 
     allowed: frozenset[Hazard]

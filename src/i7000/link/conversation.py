@@ -132,7 +132,7 @@ class Conversation:
         return BytesHeard(tuple((at - end, data) for at, data in pieces), self.clock())
 
     def _listen(self, until: float, heard: list[tuple[float, bytes]], step: SendBytes | None = None) -> Acts[None]:
-        """Hear what comes until a time; with a step, only until its answer is complete."""
+        """Read what comes until a time; with a step, only until its answer is complete."""
         latest = until
         while (now := self.clock()) < latest:
             data = yield Read(latest)
