@@ -475,6 +475,13 @@ def test_what_is_wrong_with_a_command_for_a_module_that_is_known(known: Known, w
     assert rules(findings) == [rule]
 
 
+@pytest.mark.parametrize(("wire", "address"), [(b"$0a2\r", 0x0A), (b"$0x2\r", None), (b"$0\r", None)])
+def test_the_address_of_a_command_in_lower_case_is_named(wire: bytes, address: int | None) -> None:
+    _, (finding,) = judged_frames((0, wire))
+
+    assert finding.address == address
+
+
 # --- EEPROM -----------------------------------------------------------------------------------------------------------
 
 
