@@ -50,7 +50,8 @@ class Judging:
         """Judge what was read, and print the findings."""
         if read.missing is Missing.DAMAGE:
             self._damaged += 1
-            self._printer.error(f"{read.text or f'packet {read.line}'}: {read.note}")
+            if self._damaged <= _MOST_NAMED:
+                self._printer.error(f"{read.text or f'packet {read.line}'}: {read.note}")
         if read.heard is None or read.knowledge is None:
             return
         times = read.times or (stamped(read.time) if read.time else None)
@@ -104,6 +105,8 @@ def _record(finding: Finding, read: Read) -> dict[str, Any]:
 
 
 _INDENT = "     "
+_MOST_NAMED = 20
+"""The places of a damaged file that are named."""
 
 
 def _lines(finding: Finding, read: Read) -> Iterator[Line]:
