@@ -9,6 +9,7 @@ from cyclopts import App, CycloptsError, UnusedCliTokensError
 
 from i7000.cli.backup import backup
 from i7000.cli.commands import commands
+from i7000.cli.coverage import coverage
 from i7000.cli.decode import decode
 from i7000.cli.diff import diff
 from i7000.cli.encode import encode
@@ -41,7 +42,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    provoke,
+    provoke, coverage,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())
