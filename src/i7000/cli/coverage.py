@@ -81,7 +81,7 @@ class _Reading:
         self._path, self._knowledge, self._protocol = path, knowledge, protocol
         self._carried: dict[int, Carried] = {}
         """The bytes of which the frames are not yielded yet, by line."""
-        self._last: Carried | None = None
+        self._last = Carried(0.0, b"")
         """The bytes in which the last frame was."""
         self.damaged = Counted()
 
@@ -110,12 +110,10 @@ class _Reading:
     def _seen(self, heard: Heard, line: int) -> Seen:
         """Return a frame with the notes of its line, unless another frame of that line had them."""
         carried = self._carried.pop(line, None)
-        if carried is not None:
-            self._last = carried
-            return Seen(heard, carried.notes, carried.sent, carried.seconds)
-        if self._last is not None:
+        if carried is None:
             return Seen(heard, (), self._last.sent, self._last.seconds)
-        return Seen(heard)
+        self._last = carried
+        return Seen(heard, carried.notes, carried.sent, carried.seconds)
 
     def _noted(self, lines: Iterable[tuple[int, str]]) -> Iterator[tuple[int, str]]:
         """Yield lines, and keep what each of them carries."""
