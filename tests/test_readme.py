@@ -91,6 +91,7 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
         "tests/README.md",
         "docs/half_duplex.md",
         "docs/find_a_module.md",
+        "docs/test_a_driver.md",
     ],
 )
 def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:
