@@ -10,21 +10,26 @@ from cyclopts import App, CycloptsError, UnusedCliTokensError
 from i7000.cli.backup import backup
 from i7000.cli.check import check
 from i7000.cli.commands import commands
+from i7000.cli.coverage import coverage
 from i7000.cli.decode import decode
 from i7000.cli.diff import diff
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
 from i7000.cli.listen import listen
 from i7000.cli.options import address_of
+from i7000.cli.provoke import provoke
 from i7000.cli.proxy import proxy
 from i7000.cli.read import read
 from i7000.cli.registers import registers
+from i7000.cli.replay import replay
+from i7000.cli.report import report
 from i7000.cli.restore import restore
 from i7000.cli.scan import scan
 from i7000.cli.send import send
 from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
+from i7000.cli.vectors import DELIMITER, vectors
 from i7000.cli.words import UsageError
 from i7000_cli import CLOSED, INTERRUPTED
 
@@ -41,7 +46,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    check,
+    check, report, replay, provoke, coverage, vectors,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())
@@ -58,6 +63,9 @@ def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
 def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments and arguments[0] == vectors.__name__ and DELIMITER in arguments:  # cyclopts drops the first of these
+        at = arguments.index(DELIMITER)
+        arguments = [*arguments[:at], DELIMITER, *arguments[at:]]
     try:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from i7000 import __version__, describe
+from i7000 import __version__, describe, spec
 from i7000.cli.judge_schema import SCHEMA_VERSION
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Missing, Read, stamped
@@ -34,15 +34,13 @@ class Judging:
     def begin(self, target: str) -> None:
         """Print the first record, for programs."""
         if self._printer.json:
-            from i7000.conformance.records import spec_digest  # noqa: PLC0415 - it is not needed for people
-
             self._write(
                 {
                     "record": "run-start",
                     "schema_version": SCHEMA_VERSION,
                     "program": "i7000 listen --judge",
                     "version": __version__,
-                    "spec_sha256": spec_digest(),
+                    "spec_sha256": spec.digest(),
                     "target": target,
                     "timeout": self._state.bound,
                 }

@@ -122,7 +122,7 @@ class Subject:
         return heard
 
     def _admit(self, wire: bytes) -> None:
-        """Let the guard see bytes, and count those that can change the EEPROM.
+        """Check bytes with the guard, and count those that can change the EEPROM.
 
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """

@@ -123,15 +123,16 @@ class Conversation:
         end = self.clock()
         for pause, wire in step.pieces:
             yield from self._listen(max(end, self.clock()) + pause, heard)
-            yield Write(wire)
-            self._show(Written(self.clock(), wire))
+            if wire:
+                yield Write(wire)
+                self._show(Written(self.clock(), wire))
             end = max(end, self.clock()) + len(wire) * self.bus.character_time
         yield from self._listen(end + step.seconds, heard, step)
         pieces = _without_echo(heard, b"".join(wire for _, wire in step.pieces)) if self.bus.echo else heard
         return BytesHeard(tuple((at - end, data) for at, data in pieces), self.clock())
 
     def _listen(self, until: float, heard: list[tuple[float, bytes]], step: SendBytes | None = None) -> Acts[None]:
-        """Hear what comes until a time; with a step, only until its answer is complete."""
+        """Read what comes until a time; with a step, only until its answer is complete."""
         latest = until
         while (now := self.clock()) < latest:
             data = yield Read(latest)
