@@ -4,7 +4,7 @@ Independent of the guard: the classes stand here as the specification has them, 
 of the row, and the field of the state.
 """
 
-from functools import lru_cache
+from functools import cache
 from random import Random
 from typing import Any, NamedTuple
 
@@ -81,14 +81,14 @@ def combination_of(number: int) -> Combination:
     return COMBINATIONS[number * 12_289 % len(COMBINATIONS)]
 
 
-@lru_cache(maxsize=20_000)
-def module_of(model: Model, protocol: Protocol, init: str, checksum: bool, line: LineSettings) -> State:  # noqa: FBT001
+@cache
+def _module(model: Model, protocol: Protocol, init: str, checksum: bool) -> State:  # noqa: FBT001 - for the cache
     """A module that carries out as much as possible: everything is permitted, and the watchdog runs."""
     made = factory(model)
     report = evolve(made.report_settings, checksum=checksum)
     eeprom = evolve(
-        made, line_settings=line, protocol=protocol, report_settings=report, host_watchdog_enabled=True,
-        host_watchdog_timeout=0xFF, host_watchdog_timed_out=True,
+        made, protocol=protocol, report_settings=report, host_watchdog_enabled=True, host_watchdog_timeout=0xFF,
+        host_watchdog_timed_out=True,
     )  # fmt: skip
     state = power_on(eeprom, init_switch=init == "at power-on", now=0.0)
     if init == "moved":
@@ -99,9 +99,11 @@ def module_of(model: Model, protocol: Protocol, init: str, checksum: bool, line:
     return advance(state, SIGNALS[0], NOW)
 
 
-def at_address(state: State, address: int) -> State:
-    """The module with another address."""
-    return state.store(address=address) if state.ram.init_mode else state.store(address=address).keep(address=address)
+def module_of(combination: Combination, address: int) -> State:
+    """The module of a combination; in INIT mode its line settings and its address are those of INIT mode."""
+    state = _module(combination.model, combination.protocol, combination.init, combination.checksum)
+    settings = {"address": address, "line_settings": combination.line}
+    return state.store(**settings) if state.ram.init_mode else state.store(**settings).keep(**settings)
 
 
 def acted_on(before: State, after: State, heard: tuple[Heard, ...]) -> set[Hazard]:
@@ -220,7 +222,9 @@ def drawn(chance: Random, number: int, wire: bytes | None = None) -> Case:
         if wire is None and chance.random() < 0.7:
             wire = whole[cut:] if chance.random() < 0.5 else whole[cut:] + miss()
     if wire is None and not combination.same_line and chance.random() < 0.3:
-        faster = {rate: other for other in BaudRate for rate in BaudRate if other.bits_per_second == 2 * rate.bits_per_second}
+        faster = {
+            rate: other for other in BaudRate for rate in BaudRate if other.bits_per_second == 2 * rate.bits_per_second
+        }
         if effective.baud_rate in faster and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82):
             host = LineSettings(faster[effective.baud_rate])
             wire = near_misses.half_as_fast(chance, chance.choice(near_misses.SLOW_COMMANDS))
@@ -235,12 +239,10 @@ def outcome_of(case: Case) -> Outcome:
         try:
             guard = guard.sending(before, case.host)
         except GuardError:
-            before = before[:-1]
+            before = before[: min(len(before) - 1, 3)]
         else:
             break
-    it = case.combination
-    state = at_address(module_of(it.model, it.protocol, it.init, it.checksum, it.line), case.address)
-    bus, ear = Bus((state,)), Ear(Uart.of(case.host))
+    bus, ear = Bus((module_of(case.combination, case.address),)), Ear(Uart.of(case.host))
     if before:
         bus, ear, _ = bus.hear(ear, before, SIGNALS, NOW)
     if case.silence:

@@ -71,14 +71,17 @@ def _reading(area: Area) -> Callable[[bytes], Hazards]:
 
 
 def _writing(area: Area, start_at: int, items_a_byte: float = 0) -> Callable[[bytes], Hazards]:
-    """Return the hazards of writing items; with `items_a_byte`, the start is followed by a count and a byte count."""
+    """Return the hazards of writing items; with `items_a_byte`, the start is followed by a count and a byte count.
+
+    Special: as many items are written as the count has, or as the bytes need that are counted: the larger number.
+    """
     of_items = {address: hazard for (found, address), hazard in hazards_of_writes().items() if found is area}
 
     def hazards(frame: bytes) -> Hazards:
         start, count = _word(frame, start_at), 1
         if items_a_byte:
             counted = frame[start_at + 4] if len(frame) > start_at + 4 else 0
-            count = max(1, _word(frame, start_at + 2), int(counted * items_a_byte))
+            count = max(1, _word(frame, start_at + 2), int((counted - 1) * items_a_byte) + 1)
         worse = [it for place, it in of_items.items() if (place - start) % _ITEMS < count]
         return frozenset(worse if len(worse) == count else (*worse, Hazard.WRITE))
 
