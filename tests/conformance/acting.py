@@ -20,6 +20,11 @@ NOW = 1.0
 SIGNALS = (Signals(),)
 LINES = tuple(LineSettings(rate, form) for rate in BaudRate for form in CharacterFormat)
 
+FASTER: dict[BaudRate | int, BaudRate] = {
+    slow: fast for slow in BaudRate for fast in BaudRate if fast.bits_per_second == 2 * slow.bits_per_second
+}
+"""The baud rates with one twice as fast."""
+
 CALIBRATING = {
     "CalibrateSpan", "CalibrateZero", "CalibrateCurrentChannelSpan", "CalibrateChannelZero", "CalibrateChannelSpan",
     "CalibrateInternally", "ReloadDefaultCalibration", "SetCalibrationEnabled",
@@ -154,19 +159,23 @@ def _of_request(request: Any, heard: Heard) -> set[Hazard]:
     if request.address and (heard.answer is None or heard.answer[1] & 0x80):
         return set()
     found = _of_name(type(request).__name__)
-    written = {
-        "WriteSingleCoil": lambda: range(request.coil, request.coil + 1),
-        "WriteSingleRegister": lambda: range(request.register, request.register + 1),
-    }.get(type(request).__name__, lambda: range(request.start, request.start + len(request.values)))
     if request.function in (0x05, 0x0F):
-        found |= {_of_place(it, LOSING_COILS, CALIBRATING_COILS) for it in written()}
+        found |= {_of_place(it, LOSING_COILS, CALIBRATING_COILS) for it in _written(request)}
     elif request.function in (0x06, 0x10):
-        found |= {_of_place(it, LOSING_REGISTERS, set()) for it in written()}
+        found |= {_of_place(it, LOSING_REGISTERS, set()) for it in _written(request)}
     elif request.function == 0x01 and RESET_COIL in range(request.start, request.start + request.count):
         found.add(Hazard.MEMORY)
     if request.address == 0:
         found.add(Hazard.BROADCAST)
     return found
+
+
+def _written(request: Any) -> range:
+    if request.function == 0x05:
+        return range(request.coil, request.coil + 1)
+    if request.function == 0x06:
+        return range(request.register, request.register + 1)
+    return range(request.start, request.start + len(request.values))
 
 
 def _of_place(place: int, losing: set[int], calibrating: set[int]) -> Hazard:
@@ -222,11 +231,8 @@ def drawn(chance: Random, number: int, wire: bytes | None = None) -> Case:
         if wire is None and chance.random() < 0.7:
             wire = whole[cut:] if chance.random() < 0.5 else whole[cut:] + miss()
     if wire is None and not combination.same_line and chance.random() < 0.3:
-        faster = {
-            rate: other for other in BaudRate for rate in BaudRate if other.bits_per_second == 2 * rate.bits_per_second
-        }
-        if effective.baud_rate in faster and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82):
-            host = LineSettings(faster[effective.baud_rate])
+        if effective.baud_rate in FASTER and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82):
+            host = LineSettings(FASTER[effective.baud_rate])
             wire = near_misses.half_as_fast(chance, chance.choice(near_misses.SLOW_COMMANDS))
             before = before if chance.random() < 0.3 else b""
     return Case(miss() if wire is None else wire, before, silence, host, address, combination)

@@ -88,7 +88,7 @@ def test_the_settings_of_the_port_are_those_of_the_guard() -> None:
     line = LineSettings(BaudRate.BAUD_19200, CharacterFormat.E81)
     with Line(guarded, line):
         assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (port.baudrate, port.parity, port.stopbits)
-        assert (19200, "E", 1) == (guarded.baudrate, guarded.parity, guarded.stopbits)
+        assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (19200, "E", 1)
     guarded.timeout = 2.0
 
     assert port.timeout == guarded.timeout == 2.0
@@ -112,8 +112,8 @@ def test_there_is_no_public_way_around_the_guard() -> None:
     public = {name for name in dir(guarded) if not name.startswith("_")}
 
     assert public == {
-        "allowed", "baudrate", "close", "in_waiting", "is_open", "name", "parity", "read", "stopbits", "timeout", "write",
-        "writes",
+        "allowed", "baudrate", "close", "in_waiting", "is_open", "name", "parity", "read", "stopbits", "timeout",
+        "write", "writes",
     }  # fmt: skip
     assert all(getattr(guarded, name) is not port for name in public)
     with pytest.raises(AttributeError):

@@ -21,7 +21,7 @@ from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
 from i7000.host.procedures import Identified, Procedure, identify
-from i7000.link import Line, LinkError, Observed
+from i7000.link import Line, LinkError, Observed, Port
 
 __all__ = ["OpenLine", "Reached", "given_profile", "reach", "run"]
 
@@ -63,9 +63,16 @@ class Reached:
         return f"{self.profile.model.value} at {at_words(self.address)}"
 
 
-def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observed], object] | None = None) -> int:
+def run(
+    asked: Asked,
+    body: Callable[[OpenLine], int],
+    observe: Callable[[Observed], object] | None = None,
+    *,
+    guard: Callable[[Port], Port] = lambda port: port,
+) -> int:
     """Open the port of a module, do the work of a command, and return the exit code.
 
+    Shape: `guard` returns the port that the line gets, such as a `GuardedPort` of the one that was opened.
     Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
     """
     with broken_off_by_signals() as ending:
@@ -73,7 +80,7 @@ def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observ
             with ExitStack() as stack:
                 with ending.breakable():
                     port = stack.enter_context(opened(asked.target, asked.settings))
-                line = Line(port, asked.settings, asked.policy, echo=asked.echo, observe=observe)
+                line = Line(guard(port), asked.settings, asked.policy, echo=asked.echo, observe=observe)
                 return body(OpenLine(line, ending))
         except LinkError as error:
             raise LineError(error) from None
