@@ -141,7 +141,8 @@ def test_a_run_in_which_the_guard_leaves_everything_out_did_not_pass(run: Run, m
 
 
 WRONG = (
-    ("--frames", "0"), ("--max-time", "0"), ("--max-time", "nan"), ("--report", "no/folder.json"), ("--report", __file__),
+    ("--frames", "0"), ("--max-time", "0"), ("--max-time", "nan"),
+    ("--report", "no/folder.json"), ("--report", __file__),
 )  # fmt: skip
 
 

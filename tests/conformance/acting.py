@@ -230,11 +230,11 @@ def drawn(chance: Random, number: int, wire: bytes | None = None) -> Case:
         before, silence = whole[:cut], chance.random() < 0.2
         if wire is None and chance.random() < 0.7:
             wire = whole[cut:] if chance.random() < 0.5 else whole[cut:] + miss()
-    if wire is None and not combination.same_line and chance.random() < 0.3:
-        if effective.baud_rate in FASTER and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82):
-            host = LineSettings(FASTER[effective.baud_rate])
-            wire = near_misses.half_as_fast(chance, chance.choice(near_misses.SLOW_COMMANDS))
-            before = before if chance.random() < 0.3 else b""
+    halves = effective.baud_rate in FASTER and effective.character_format in (CharacterFormat.N81, CharacterFormat.N82)
+    if wire is None and halves and not combination.same_line and chance.random() < 0.3:
+        address, host = near_misses.SLOW_ADDRESS, LineSettings(FASTER[effective.baud_rate])
+        wire = near_misses.half_as_fast(chance, chance.choice(near_misses.SLOW_COMMANDS))
+        before = before if chance.random() < 0.3 else b""
     return Case(miss() if wire is None else wire, before, silence, host, address, combination)
 
 

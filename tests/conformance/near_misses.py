@@ -84,6 +84,7 @@ def half_as_fast(chance: Random, frame: bytes) -> bytes:
     return bytes(sent)
 
 
+SLOW_ADDRESS = 0x88
 SLOW_COMMANDS = (b"~**\r", b"~88I\r", b"~88OHI\r", b"~88O8\r", b"~88OXYZ\r")
 """Commands whose bytes all have bit 3 set."""
 
