@@ -199,7 +199,7 @@ class Case(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What the module did, and what the guard found."""
+    """What the module did, and what the guard found; it is not asked if the module did nothing."""
 
     acted: set[Hazard]
     found: frozenset[Hazard]
@@ -257,4 +257,5 @@ def outcome_of(case: Case) -> Outcome:
     (ready,) = bus.modules
     bus, ear, first = bus.hear(ear, case.wire, SIGNALS, NOW)
     bus, ear, second = bus.silence(ear, SIGNALS, NOW)
-    return Outcome(acted_on(ready, bus.modules[0], first + second), guard.hazards_of(case.wire, case.host))
+    acted = acted_on(ready, bus.modules[0], first + second)
+    return Outcome(acted, guard.hazards_of(case.wire, case.host) if acted else frozenset())
