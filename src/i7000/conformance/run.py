@@ -194,9 +194,9 @@ class Run:
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
         for group in _halves(self.planned):
-            yield from self._checks(group)
+            yield from self.checks(group)
 
-    def _checks(self, group: Sequence[Planned]) -> Procedure[None]:
+    def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
         found = []
         for one in group:
