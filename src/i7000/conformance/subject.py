@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from attrs import define, field
 
 from i7000 import dcon, modbus
-from i7000.conformance.guard import Guard
+from i7000.conformance.guard import Guard, GuardError, hazards_of
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
@@ -29,6 +29,9 @@ _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
+_SILENCE = 0.3
+"""The silence in seconds that ends every request by Modbus, also for the guard of the port."""
+_LINE_END = b"#\r"
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
@@ -112,14 +115,37 @@ class Subject:
         Shape: pieces of a frame follow each other without a pause, or after one of so many seconds.
         """
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
-        for _, wire in parts:
-            self._admit(wire)
+        before = self.guard
+        try:
+            self._admit_all(parts)
+        except GuardError:
+            self.guard = before
+            if not all(hazards_of(wire, self.line) <= self.guard.allowed | {Hazard.OBSERVE} for _, wire in parts):
+                raise
+            yield from self.end_line()
+            self._admit_all(parts)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
         heard: BytesHeard = yield SendBytes(parts, seconds * self.timeout_scale + delay, quiet, ends)
         self.now = heard.now
         return heard
+
+    def end_line(self) -> Procedure[None]:
+        """End what modules of either protocol may have heard as the beginning of a command or request.
+
+        Special: DCON has no timeout, so that requests by Modbus may add up to a command; a leading character and a
+            carriage return end every such line, and no module carries them out.
+        """
+        yield Wait(_SILENCE)
+        self.guard = self.guard.after_silence()
+        if self.protocol is Protocol.MODBUS_RTU:
+            self.guard = self.guard.sending(_LINE_END, self.line)
+            self.now = (yield SendBytes(((0.0, _LINE_END),), 0.0)).now
+
+    def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
+        for _, wire in parts:
+            self._admit(wire)
 
     def _admit(self, wire: bytes) -> None:
         """Let the guard see bytes, and count those that can change the EEPROM.
