@@ -8,6 +8,7 @@ from typing import Literal
 from cyclopts import App, CycloptsError, UnusedCliTokensError
 
 from i7000.cli.backup import backup
+from i7000.cli.check import check
 from i7000.cli.commands import commands
 from i7000.cli.decode import decode
 from i7000.cli.diff import diff
@@ -40,6 +41,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
+    check,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())

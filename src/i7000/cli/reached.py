@@ -20,8 +20,10 @@ from i7000.cli.stored import stored_settings
 from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
+from i7000.conformance import Hazard
 from i7000.host.procedures import Identified, Procedure, identify
-from i7000.link import Line, LinkError, Observed
+from i7000.link import Line, LinkError, Observed, Port
+from i7000.link.guarded import GuardedPort
 
 __all__ = ["OpenLine", "Reached", "given_profile", "reach", "run"]
 
@@ -63,8 +65,16 @@ class Reached:
         return f"{self.profile.model.value} at {at_words(self.address)}"
 
 
-def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observed], object] | None = None) -> int:
+def run(
+    asked: Asked,
+    body: Callable[[OpenLine], int],
+    observe: Callable[[Observed], object] | None = None,
+    *,
+    allowed: frozenset[Hazard] | None = None,
+) -> int:
     """Open the port of a module, do the work of a command, and return the exit code.
+
+    Shape: with `allowed`, whatever is sent passes a guard that refuses the rest.
 
     Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
     """
@@ -72,7 +82,9 @@ def run(asked: Asked, body: Callable[[OpenLine], int], observe: Callable[[Observ
         try:
             with ExitStack() as stack:
                 with ending.breakable():
-                    port = stack.enter_context(opened(asked.target, asked.settings))
+                    port: Port = stack.enter_context(opened(asked.target, asked.settings))
+                if allowed is not None:
+                    port = GuardedPort(port, allowed)
                 line = Line(port, asked.settings, asked.policy, echo=asked.echo, observe=observe)
                 return body(OpenLine(line, ending))
         except LinkError as error:

@@ -16,7 +16,7 @@ from i7000.errors import DecodeError, shown
 from i7000.frozen import frozen
 from i7000.host.procedures import NOT_SETTINGS, Snapshot
 from i7000.host.procedures.settings import known_settings
-from i7000.message import Query
+from i7000.message import Query, Response
 from i7000.modbus import Area, Kind, Register
 from i7000.models import Firmware, series
 from i7000.profile import Profile
@@ -139,25 +139,26 @@ def _query(frame: bytes, state: State) -> Query[Any] | None:
 
 def difference(answer: Answer, heard: bytes) -> str | None:
     """Return what is wrong with the answer of a module, in words; None if it is allowed."""
-    if answer.wire is None:
-        return f"answered {len(heard)} bytes where silence is right" if heard else None
-    if heard == answer.wire:
+    if heard == (answer.wire or b""):
         return None
+    if answer.wire is None:
+        return f"answered {len(heard)} bytes where silence is right"
     if not heard:
         return "no answer"
-    if answer.query is None:
-        return "another answer"
-    decode: Any = modbus.decode_response if isinstance(answer.query, modbus.Request) else dcon.decode_response
+    return "another answer" if answer.query is None else _decoded_difference(answer, answer.query, answer.wire, heard)
+
+
+def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: bytes) -> str | None:
+    of_modbus = isinstance(query, modbus.Request)
+    decode: Any = modbus.decode_response if of_modbus else dcon.decode_response
     try:
-        response = decode(heard, answer.query, answer.profile)
-        expected = decode(answer.wire, answer.query, answer.profile)
+        response = decode(heard, query, answer.profile)
     except DecodeError as error:
         return str(error)
+    expected = decode(right, query, answer.profile)
     if type(response) is not type(expected):
         return f"{type(response).__name__} where {type(expected).__name__} is right"
-    if isinstance(answer.query, modbus.Request):
-        return _modbus_difference(answer, response, expected)
-    return _dcon_difference(answer, response, expected)
+    return (_modbus_difference if of_modbus else _dcon_difference)(answer, response, expected)
 
 
 # --- DCON -------------------------------------------------------------------------------------------------------------
@@ -166,7 +167,7 @@ _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon
 """The responses that depend on what the module measures or remembers since its power-on."""
 
 
-def _dcon_difference(answer: Answer, response: Any, expected: Any) -> str | None:
+def _dcon_difference(answer: Answer, response: Response, expected: Response) -> str | None:
     if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
         return _readings_difference(
             answer, lambda: dcon.readings(response, answer.profile), range(len(response.values))
@@ -188,12 +189,12 @@ def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], 
         for channel, reading in zip(channels, readings, strict=True):
             disabled = not answer.enabled >> channel & 1
             if disabled is not (reading.status is Status.DISABLED):
-                return f"channel {channel} is {'not ' if disabled else ''}blank, but it is {'dis' if disabled else 'en'}abled"
+                return f"channel {channel} is {'disabled, but not' if disabled else 'enabled, but'} blank"
     return None
 
 
-def _fields_difference(response: Any, expected: Any) -> str:
-    for name in fields_dict(type(expected)):
+def _fields_difference(response: Response, expected: Response) -> str:
+    for name in fields_dict(type(expected)):  # type: ignore[arg-type] # of an attrs class
         value, right = getattr(response, name), getattr(expected, name)
         if value != right:
             return f"{name} is {shown(value)} where {shown(right)} is right"
@@ -212,7 +213,7 @@ _REMEMBERED = frozenset(NOT_SETTINGS) | {
 """The rows that depend on what the module measures or remembers."""
 
 
-def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:
+def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:  # noqa: ANN401 - of any request
     query: Any = answer.query
     if response.area is None or query.first_item is None or not hasattr(response, "values"):
         return _fields_difference(response, expected)

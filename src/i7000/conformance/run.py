@@ -29,7 +29,7 @@ from i7000.host.procedures import BytesHeard, Procedure, Result, Tell
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
-__all__ = ["Begun", "CheckResult", "Options", "Planned", "exit_code", "plan", "run", "selected"]
+__all__ = ["Begun", "CheckResult", "Options", "Planned", "Run", "exit_code", "plan", "selected"]
 
 _MOST_REPEATS = 2
 """How often a check that only reads is repeated when it does not pass."""
@@ -158,21 +158,6 @@ def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: f
 # --- the run ----------------------------------------------------------------------------------------------------------
 
 
-def run(
-    planned: Sequence[Planned], eeprom: Eeprom, options: Options, *, line: LineSettings, checksum: bool
-) -> Procedure[tuple[CheckResult, ...]]:
-    """Make the procedure that carries out a plan on the module with these settings.
-
-    Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
-    """
-    twin = Twin.of(eeprom, 0.0)
-    twin = Twin(twin.state.keep(checksum=checksum, line_settings=line))
-    run = _Run(planned, twin, options, line)
-    for group in _halves(planned):
-        yield from run.checks(group)
-    return tuple(run.results)
-
-
 def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
     """Yield each check with its negative halves after it."""
     ids = {it.statement.id for it in planned}
@@ -182,20 +167,35 @@ def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
         yield [one, *(it for it in planned if it.statement.positive == one.statement.id)]
 
 
-class _Run:
-    """The state of a run."""
+class Run:
+    """A run of a plan on a module with these settings; `line` and `checksum` are those that it answers with now."""
 
-    def __init__(self, planned: Sequence[Planned], twin: Twin, options: Options, line: LineSettings) -> None:
-        self.twin, self.options, self.line = twin, options, line
+    def __init__(
+        self, planned: Sequence[Planned], eeprom: Eeprom, options: Options, *, line: LineSettings, checksum: bool
+    ) -> None:
+        self.planned, self.options, self.line = tuple(planned), options, line
+        twin = Twin.of(eeprom, 0.0)
+        self.twin = Twin(twin.state.keep(checksum=checksum, line_settings=line))
         self.results: list[CheckResult] = []
         self.now: float | None = None
         self.began: float | None = None
         self.writes = 0
+        """The frames so far that may have changed the EEPROM."""
+        self.place = self.twin
+        """Where the module is now, and how it is spoken to."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
         self._planned = {it.statement.id for it in planned}
         self._verdicts: dict[str, Verdict] = {}
 
-    def checks(self, group: Sequence[Planned]) -> Procedure[None]:
+    def procedure(self) -> Procedure[None]:
+        """Return the procedure that carries out the plan.
+
+        Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
+        """
+        for group in _halves(self.planned):
+            yield from self._checks(group)
+
+    def _checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
         found = []
         for one in group:
@@ -219,10 +219,9 @@ class _Run:
         result = yield from self._once(one.statement)
         if result.verdict not in _REPEATED or not one.statement.hazards <= _READS:
             return result
-        repeats = []
-        for _ in range(_MOST_REPEATS):
-            repeats.append((yield from self._once(one.statement)).verdict)
-        again = tuple(repeats)
+        again: tuple[Verdict, ...] = ()
+        while len(again) < _MOST_REPEATS:
+            again += ((yield from self._once(one.statement)).verdict,)
         verdict = result.verdict if set(again) == {result.verdict} else Verdict.FLAKY
         return evolve(result, verdict=verdict, repeats=again)
 
@@ -259,6 +258,7 @@ class _Run:
         try:
             while True:
                 step = steps.send(answer)
+                self.place = subject.twin
                 answer = yield step
                 heard = heard or _is_evidence(answer)
                 if isinstance(answer, BytesHeard):

@@ -126,8 +126,8 @@ class Subject:
 
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """
-        self.guard = self.guard.sending(wire, self.line)
-        if self.guard.hazards & _STORED:
+        self.guard, hazards = self.guard.judged(wire, self.line)
+        if hazards & _STORED:
             if not self.writes_left:
                 raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
             self.writes_left -= 1

@@ -1,6 +1,7 @@
 """The verdict of a check, and what a check raises to end with one.
 
-Laws: a check that ends without raising has passed, if bytes of the module were received in it; see `i7000.conformance.run`.
+Laws: a check that ends without raising has passed, if bytes of the module were received in it: see
+`i7000.conformance.run`.
 """
 
 from enum import Enum
@@ -11,8 +12,8 @@ __all__ = ["Difference", "Note", "Reason", "SkipReason", "Skipped", "Strange", "
 class Verdict(Enum):
     """What became of a check."""
 
-    PASS = "PASS"
-    PASS_GOOD_ONLY = "PASS-GOOD-ONLY"
+    PASS = "PASS"  # noqa: S105 - a verdict
+    PASS_GOOD_ONLY = "PASS-GOOD-ONLY"  # noqa: S105 - a verdict
     """The module does what it should, but whether it also does what it should not was not tested."""
     INCONCLUSIVE = "INCONCLUSIVE"
     """Nothing was received that could decide."""

@@ -32,7 +32,7 @@ class Danger(Enum):
     """A setting changes on every module of the line that has it."""
 
 
-_BY_CLASS: Mapping[type[Any], Danger] = MappingProxyType({
+BY_CLASS: Mapping[type[Any], Danger] = MappingProxyType({
     **dict.fromkeys(
         (
             dcon.SetConfiguration, dcon.SetProtocol, dcon.SoftInit, dcon.SetSoftInitTimeout,
@@ -73,7 +73,7 @@ def danger_of(command: Query[Any]) -> Danger | None:
     <Danger.LOSES: 'loses'>
     """
     check_type("command", command, Query)
-    found = [_BY_CLASS.get(type(command)), *map(_dangers_of_rows().get, _written(command))]
+    found = [BY_CLASS.get(type(command)), *map(dangers_of_rows().get, _written(command))]
     if isinstance(command, modbus.Request) and command.address == modbus.BROADCAST:
         found.append(Danger.BROADCAST)
     return next((danger for danger in Danger if danger in found), None)
@@ -91,7 +91,7 @@ def _written(command: Any) -> Iterator[tuple[Area, int]]:  # noqa: ANN401 - of e
 
 
 @cache
-def _dangers_of_rows() -> Mapping[tuple[Area, int], Danger]:
+def dangers_of_rows() -> Mapping[tuple[Area, int], Danger]:
     """Return the addresses that are dangerous to write on any model."""
     return MappingProxyType(
         {

@@ -4,7 +4,8 @@
 what a text names: a device, a URL of pyserial, ``sim:`` or ``exec:``. `VirtualPort` is a serial port with simulated
 modules in virtual time, for tests.
 Parts: `conversation` is what both lines do, without I/O; `port` has the blocking calls of a port, `worker` makes them
-in a thread. `process` is the port of ``exec:``, `rfc2217` that of ``rfc2217:``. `observed` has what an observer hears.
+in a thread. `guarded` is a port that refuses what is not allowed. `process` is the port of ``exec:``, `rfc2217` that of
+``rfc2217:``. `observed` has what an observer hears.
 The names below are imported when they are first used, since asyncio and the simulator take time to import.
 """
 
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from i7000.link.async_line import AsyncLine
     from i7000.link.errors import LinkError
+    from i7000.link.guarded import BudgetError, GuardedPort
     from i7000.link.line import Line
     from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
     from i7000.link.port import Port
@@ -25,6 +27,8 @@ __all__ = [
     "Abandoned",
     "Asked",
     "AsyncLine",
+    "BudgetError",
+    "GuardedPort",
     "Happened",
     "Line",
     "LinkError",
@@ -42,6 +46,7 @@ __all__ = [
 _PLACES = {
     "async_line": ("AsyncLine",),
     "errors": ("LinkError",),
+    "guarded": ("BudgetError", "GuardedPort"),
     "line": ("Line",),
     "observed": ("Abandoned", "Asked", "Happened", "Observed", "Received", "Tuned", "Written"),
     "port": ("Port",),

@@ -108,10 +108,12 @@ def read(port: Port, seconds: float) -> bytes:
 def write(port: Port, wire: bytes) -> None:
     """Send bytes.
 
-    Errors: `LinkError`.
+    Errors: `LinkError`; those of this package that a port raises pass.
     """
     try:
         count = port.write(wire)
+    except I7000Error:
+        raise
     except Exception as error:
         raise _lost(port, error) from error
     if count is not None and count < len(wire):

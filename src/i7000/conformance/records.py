@@ -1,0 +1,170 @@
+"""The lines of a report: JSON objects from ``run-start`` to ``run-end``, with everything that a run was about.
+
+Laws: a report without its last line is incomplete, and says so wherever it is shown. The last line has the SHA-256 of
+all lines before it. Two runs that do the same differ in their times only.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from typing import Any
+
+from i7000 import spec
+from i7000.conformance.hazard import Hazard
+from i7000.conformance.run import CheckResult
+from i7000.conformance.settle import Settled
+from i7000.conformance.verdict import Verdict
+from i7000.host.procedures import Snapshot
+from i7000.settings import BaudRate, LineSettings
+
+__all__ = [
+    "MANUAL",
+    "SCHEMA_VERSION",
+    "Digest",
+    "check_record",
+    "end_record",
+    "spec_digest",
+    "start_record",
+    "wire_record",
+]
+
+SCHEMA_VERSION = 1
+"""The version of the format. It changes when a reader of the old one would misread the new one."""
+MANUAL = "B3.6"
+"""The revision of the manual that ``spec/`` is about."""
+Record = dict[str, Any]
+
+_json = json.JSONEncoder(ensure_ascii=True, allow_nan=False).encode
+
+
+def spec_digest() -> str:
+    """Return the SHA-256 of all files of ``spec/``, each with its name before it."""
+    digest = sha256()
+    left = [("", spec.files())]
+    files = []
+    while left:
+        path, folder = left.pop()
+        for entry in folder.iterdir():
+            name = f"{path}/{entry.name}" if path else entry.name
+            if entry.is_dir():
+                left.append((name, entry))
+            elif name.endswith((".json", ".md")):
+                files.append((name, entry))
+    for name, file in sorted(files, key=lambda it: it[0]):
+        digest.update(f"{name}\n".encode())
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+def start_record(  # noqa: PLR0913 - each of them is a fact
+    *,
+    version: str,
+    time: str,
+    target: str,
+    seed: int,
+    allowed: Iterable[Hazard],
+    selection: Iterable[str],
+    checks: int,
+    snapshot: Snapshot,
+    address: int,
+    line: LineSettings,
+    checksum: bool,
+) -> Record:
+    """Return the first line."""
+    permitted = frozenset(allowed)
+    return {
+        "record": "run-start",
+        "schema_version": SCHEMA_VERSION,
+        "version": version,
+        "spec_sha256": spec_digest(),
+        "manual": MANUAL,
+        "time": time,
+        "target": target,
+        "seed": seed,
+        "allowed": [hazard.value for hazard in Hazard if hazard in permitted],
+        "selection": list(selection),
+        "checks": checks,
+        "module": {
+            "address": address,
+            "baud_rate": BaudRate(line.baud_rate).bits_per_second,
+            "character_format": line.character_format.name,
+            "checksum": checksum,
+            **json.loads(snapshot.to_json()),
+        },
+    }
+
+
+def wire_record(check: str | None, seconds: float, data: bytes, *, sent: bool) -> Record:
+    """Return the line of bytes on the wire; `check` is the check that they belong to, None outside of any."""
+    return {
+        "record": "wire",
+        "check": check,
+        "seconds": round(seconds, 6),
+        "from": "host" if sent else "module",
+        "wire": data.hex(),
+    }
+
+
+def check_record(result: CheckResult) -> Record:
+    """Return the line of a check."""
+    statement = result.statement
+    record: Record = {
+        "record": "check",
+        "id": result.id,
+        "verdict": result.verdict.value,
+        "seconds": round(result.seconds, 6),
+        "title": statement.title,
+        "requirement": statement.requirement,
+        "sections": list(statement.sections),
+        "level": statement.level.value,
+        "hazards": [hazard.value for hazard in Hazard if hazard in statement.hazards],
+        "errata": list(statement.errata),
+    }
+    if result.reason:
+        record["reason"] = result.reason.value
+    for name, value in (("text", result.text), ("expected", result.expected)):
+        if value:
+            record[name] = value
+    for name, wire in (("sent", result.sent), ("received", result.received)):
+        if result.text and (result.sent or result.received):
+            record[name] = wire.hex()
+    if result.repeats:
+        record["repeats"] = [verdict.value for verdict in result.repeats]
+    if result.writes:
+        record["writes"] = result.writes
+    return record
+
+
+def end_record(
+    results: Iterable[CheckResult], settled: Settled | None, *, writes: int, exit_code: int, complete: bool
+) -> Record:
+    """Return the last line, without its digest."""
+    counts = Counter(result.verdict for result in results)
+    return {
+        "record": "run-end",
+        "complete": complete,
+        "counts": {verdict.value: counts[verdict] for verdict in Verdict if counts[verdict]},
+        "writes": writes,
+        "restored": list(settled.restored) if settled else None,
+        "left_changed": list(settled.left) if settled else None,
+        "silent": settled.silent if settled else None,
+        "exit_code": exit_code,
+    }
+
+
+class Digest:
+    """The lines of a report with their SHA-256, as they are written."""
+
+    def __init__(self) -> None:
+        self._digest = sha256()
+
+    def line(self, record: Mapping[str, Any]) -> str:
+        """Return a record as a line, without its end."""
+        text = _json(record)
+        self._digest.update(text.encode() + b"\n")
+        return text
+
+    def last(self, record: Mapping[str, Any]) -> str:
+        """Return the last record as a line with the digest of the lines before it."""
+        return _json({**record, "digest": self._digest.hexdigest()})
