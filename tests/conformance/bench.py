@@ -7,7 +7,7 @@ from attrs import define, evolve, field
 
 from i7000 import Model, Protocol, dcon
 from i7000.conformance.hazard import Hazard
-from i7000.conformance.run import CheckResult, Options, plan, run, selected
+from i7000.conformance.run import CheckResult, Options, Run, plan, selected
 from i7000.conformance.verdict import Verdict
 from i7000.device import Eeprom, Signals, State, factory, power_on, step
 from i7000.host.procedures import BytesHeard, PowerCycle, SendBytes, Tune, Wait
@@ -108,10 +108,9 @@ def checked(
     state = power_on(eeprom, now=0.0)
     bench = bench or Bench(state, firmware, power, state.ram.line_settings)
     planned = plan(selected(select), state.profile, eeprom.protocol, allowed)
-    procedure = run(
-        planned, eeprom, Options(allowed=allowed), line=state.ram.line_settings, checksum=state.ram.checksum
-    )
-    return {result.id: result for result in bench.drive(procedure)}
+    found = Run(planned, eeprom, Options(allowed=allowed), line=state.ram.line_settings, checksum=state.ram.checksum)
+    bench.drive(found.procedure())
+    return {result.id: result for result in found.results}
 
 
 def undone(results: dict[str, CheckResult]) -> dict[str, tuple[Verdict, str]]:

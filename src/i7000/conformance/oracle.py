@@ -40,6 +40,8 @@ _FIELDS = {
 }
 """The fields of `Eeprom` that are not named as the settings; 7018 modules keep all offsets in one of them."""
 _7018_SERIES = series("7018")
+_7019_SERIES = series("7019")
+"""The models whose disabled channels are blank for sure; the others may send anything there (E25)."""
 _OF_REPORTS = frozenset({"data_format", "filter", "fast_mode", "checksum"})
 _OF_LINE = frozenset({"baud_rate", "character_format"})
 _DATES = ("year", "month", "date", "hour", "minute", "second")
@@ -188,7 +190,8 @@ def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], 
             return str(error)
         for channel, reading in zip(channels, readings, strict=True):
             disabled = not answer.enabled >> channel & 1
-            if disabled is not (reading.status is Status.DISABLED):
+            blank = reading.status is Status.DISABLED
+            if disabled is not blank and (blank or answer.profile.model in _7019_SERIES):
                 return f"channel {channel} is {'disabled, but not' if disabled else 'enabled, but'} blank"
     return None
 

@@ -9,7 +9,8 @@ from functools import partial
 from typing import Any
 
 from i7000 import dcon
-from i7000.conformance.checks.steps import Steps, beyond, not_carried_out, with_tail
+from i7000.conformance.checks import dcon_settings
+from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, with_tail
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note
 from i7000.errors import DecodeError
@@ -77,13 +78,9 @@ def _no_more_channels(command: OfChannel, module: Subject) -> Procedure[None]:
     digits = module.profile.channel_digits
     for channel in beyond(module.channels, digits):
         yield from module.expect(command(module.address, channel))
-    bodies = [_body(module, command(module.address, channel)) for channel in (0, 1)]
+    bodies = [body_of(module, command(module.address, channel)) for channel in (0, 1)]
     at = next(at for at, pair in enumerate(zip(*bodies, strict=True)) if len(set(pair)) > 1)
     yield from not_carried_out(module, module.seal(bodies[0][:at] + b"G" + bodies[0][at + 1 :]) + b"\r")
-
-
-def _body(module: Subject, command: dcon.Command[Any]) -> bytes:
-    return dcon.unseal(module.wire(command), checksum=module.profile.checksum)
 
 
 # --- synchronized sampling --------------------------------------------------------------------------------------------
@@ -214,6 +211,7 @@ STEPS: dict[str, Steps] = {
     "dcon/2.2/ignored": _sample,
     "dcon/2.35/silent": _host_ok,
     "dcon/2.35/silent-n1": partial(_host_ok, tail=True),
+    **dcon_settings.STEPS,
     "dcon/2/unknown-command": _unknown,
     "dcon/2/way-of-refusal": _way_of_refusal,
     "dcon/2/of-other-models": _of_other_models,

@@ -5,10 +5,11 @@ from typing import Any
 
 from i7000 import dcon
 from i7000.conformance.subject import Subject
+from i7000.conformance.verdict import Reason
 from i7000.host.procedures import Procedure
 from i7000.message import Query
 
-__all__ = ["Steps", "not_carried_out", "with_tail"]
+__all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "unchanged", "with_tail"]
 
 Steps = Callable[[Subject], Procedure[None]]
 """The steps of a check: a generator function of the module under test. It passes by ending."""
@@ -17,11 +18,14 @@ _TAILS = (b"F3", b"E5")
 """Characters that no command ends with. They look like a checksum, so that the guard lets them follow a read."""
 
 
+def body_of(module: Subject, command: Query[Any]) -> bytes:
+    """Return the frame of a DCON command without checksum and carriage return."""
+    return dcon.unseal(module.wire(command), checksum=module.profile.checksum)
+
+
 def with_tail(module: Subject, command: Query[Any]) -> bytes:
     """Return the frame of a DCON command with two characters too many, which are not its checksum either."""
-    body = module.wire(command).removesuffix(b"\r")
-    if module.profile.checksum:
-        body = body[:-2]
+    body = body_of(module, command)
     right = b"%02X" % dcon.checksum(body)
     return body + next(tail for tail in _TAILS if tail != right) + b"\r"
 
@@ -39,3 +43,40 @@ def not_carried_out(module: Subject, *wires: bytes) -> Procedure[None]:
 def beyond(channels: Iterable[int], digits: int) -> list[int]:
     """Return the first channel after some, and the last that can be written in so many hex digits."""
     return sorted({max(channels) + 1, 16**digits - 1}.intersection(range(max(channels) + 1, 16**digits)))
+
+
+# --- settings ---------------------------------------------------------------------------------------------------------
+
+
+def changed(module: Subject, new: Query[Any], old: Query[Any], *reads: Query[Any]) -> Procedure[None]:
+    """Change a setting, read what depends on it, and change it back; it is changed back too if something is wrong."""
+    module.reserve(2)
+    try:
+        yield from module.expect(new)
+        for read in reads:
+            yield from module.expect(read)
+    except Reason:
+        yield from put_back(module, old)
+        raise
+    yield from module.expect(old)
+    yield from module.expect(reads[0])
+
+
+def unchanged(module: Subject, tries: Procedure[None], old: Query[Any], *reads: Query[Any]) -> Procedure[None]:
+    """Make tries that the module must not carry out, and read the setting; write it again if something is wrong."""
+    module.reserve(1)
+    try:
+        yield from tries
+        for read in reads:
+            yield from module.expect(read)
+    except Reason:
+        yield from put_back(module, old)
+        raise
+
+
+def put_back(module: Subject, *olds: Query[Any]) -> Procedure[None]:
+    """Write settings as they were, whatever the module answers."""
+    for old in olds:
+        wire = module.wire(old)
+        module.hear(wire)
+        yield from module.send(wire)
