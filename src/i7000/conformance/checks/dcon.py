@@ -1,4 +1,5 @@
-"""The DCON commands (manual 2): what is read, sampled and unknown. The others are in `dcon_settings` and below.
+"""The DCON commands (manual 2): what is read, sampled and unknown. The others are in `dcon_settings`,
+`dcon_line` and `dcon_calibration`.
 
 Laws: a command with other characters after it is never carried out. Whether the module is silent then or answers
 ``?AA`` is open (E27).
@@ -9,7 +10,7 @@ from functools import partial
 from typing import Any
 
 from i7000 import dcon
-from i7000.conformance.checks import dcon_settings
+from i7000.conformance.checks import dcon_calibration, dcon_line, dcon_settings
 from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, with_tail
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note
@@ -212,6 +213,8 @@ STEPS: dict[str, Steps] = {
     "dcon/2.35/silent": _host_ok,
     "dcon/2.35/silent-n1": partial(_host_ok, tail=True),
     **dcon_settings.STEPS,
+    **dcon_line.STEPS,
+    **dcon_calibration.STEPS,
     "dcon/2/unknown-command": _unknown,
     "dcon/2/way-of-refusal": _way_of_refusal,
     "dcon/2/of-other-models": _of_other_models,
