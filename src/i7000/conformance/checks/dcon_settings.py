@@ -16,20 +16,20 @@ from i7000.conformance.checks.steps import (
     changed,
     not_carried_out,
     put_back,
+    told,
     unchanged,
     with_tail,
 )
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason
 from i7000.device import Eeprom
-from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
 from i7000.settings import CjcUpdate
 from i7000.type_codes import TypeCode
 
-__all__ = ["STEPS", "other_type"]
+__all__ = ["SETTLING", "STEPS", "other_type"]
 
-_SETTLING = 1.0
+SETTLING = 1.0
 """The seconds after which a channel has readings of its new type."""
 _INVALID_TYPE = 0x30
 _LARGEST_OFFSET = 0x1000
@@ -84,7 +84,7 @@ def _set_type(module: Subject) -> Procedure[None]:
     module.reserve(2)
     try:
         yield from module.expect(new)
-        yield from module.wait(_SETTLING)
+        yield from module.wait(SETTLING)
         for read in (*reads, dcon.ReadAnalogInputs(module.address)):
             yield from module.expect(read)
     except Reason:
@@ -245,24 +245,12 @@ def _set_mode(module: Subject) -> Procedure[None]:
         yield from module.expect(_mode(module, single_ended=not now))
         yield from module.expect(dcon.ReadConnectingMode(module.address))
         for command in (dcon.ReadAnalogInputs(module.address), dcon.ReadChannelMask(module.address)):
-            yield from _shaped(module, command)
+            yield from told(module, command, evolve(module.profile, type_codes=()))
     except Reason:
         yield from put_back(module, old)
         raise
     yield from module.expect(old)
     yield from module.expect(dcon.ReadConnectingMode(module.address))
-
-
-def _shaped(module: Subject, command: dcon.Command[Any]) -> Procedure[None]:
-    """Read of as many channels as there are now, whose types and mask are unknown if they have just appeared."""
-    wire = module.wire(command)
-    heard = (yield from module.send(wire)).wire
-    if not heard:
-        yield from module.alive(wire)
-    try:
-        dcon.decode_response(heard, command, evolve(module.profile, type_codes=()))
-    except DecodeError as error:
-        raise module.wrong(str(error), wire, heard, f"{module.profile.channels} channels") from None
 
 
 def _no_other_mode(module: Subject) -> Procedure[None]:

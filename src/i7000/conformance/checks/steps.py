@@ -1,15 +1,19 @@
 """What the steps of a check are, and steps that many checks share."""
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, TypeVar
 
 from i7000 import dcon
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason
+from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
-from i7000.message import Query
+from i7000.message import Query, Response
+from i7000.profile import Profile
 
-__all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "unchanged", "with_tail"]
+__all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "told", "unchanged", "with_tail"]
+
+R = TypeVar("R", bound=Response)
 
 Steps = Callable[[Subject], Procedure[None]]
 """The steps of a check: a generator function of the module under test. It passes by ending."""
@@ -38,6 +42,25 @@ def not_carried_out(module: Subject, *wires: bytes) -> Procedure[None]:
     """
     for wire in wires:
         yield from module.expect_one_of(wire, (None, module.refused))
+
+
+def told(module: Subject, command: dcon.Command[R], profile: Profile | None = None) -> Procedure[tuple[R, bytes]]:
+    """Send a DCON command, and return its response and the bytes of it; the twin does not compare what it says.
+
+    Shape: `profile` decodes the response in place of that of the module.
+    Errors: `Difference` for a refusal and for a response of another form, `Unclear` for silence.
+    """
+    wire = module.wire(command)
+    heard = (yield from module.send(wire)).wire
+    if not heard:
+        yield from module.alive(wire)
+    try:
+        response = dcon.decode_response(heard, command, profile or module.profile)
+    except DecodeError as error:
+        raise module.wrong(str(error), wire, heard, command.response.syntax) from None
+    if isinstance(response, dcon.Refused):
+        raise module.wrong("refused", wire, heard, command.response.syntax)
+    return response, heard
 
 
 def beyond(channels: Iterable[int], digits: int) -> list[int]:
