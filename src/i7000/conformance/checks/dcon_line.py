@@ -16,7 +16,7 @@ from i7000.host.procedures import Procedure
 from i7000.settings import DataFormat, Filter, Protocol
 from i7000.type_codes import MIXED
 
-__all__ = ["STEPS", "configuration"]
+__all__ = ["STEPS", "configuration", "other_configuration", "other_protocol"]
 
 
 # --- the configuration ------------------------------------------------------------------------------------------------
@@ -30,7 +30,7 @@ def configuration(module: Subject) -> dcon.SetConfiguration:
     return dcon.SetConfiguration(module.address, module.address, code, memory.line_settings, memory.report_settings)
 
 
-def _other_configuration(module: Subject) -> dcon.SetConfiguration:
+def other_configuration(module: Subject) -> dcon.SetConfiguration:
     """Return another data format, and where they can be set, another filter and type."""
     old = configuration(module)
     report = old.report_settings
@@ -46,11 +46,11 @@ def _other_configuration(module: Subject) -> dcon.SetConfiguration:
 
 def _set_configuration(module: Subject) -> Procedure[None]:
     reads = (dcon.ReadConfiguration(module.address), dcon.ReadAnalogInputs(module.address))
-    yield from changed(module, _other_configuration(module), configuration(module), *reads)
+    yield from changed(module, other_configuration(module), configuration(module), *reads)
 
 
 def _no_configuration(module: Subject) -> Procedure[None]:
-    old, other = configuration(module), _other_configuration(module)
+    old, other = configuration(module), other_configuration(module)
     body = body_of(module, other)
     wires = (
         module.seal(body[:-1] + b"%X" % (int(body[-1:], 16) | 3)) + b"\r",
@@ -63,14 +63,14 @@ def _no_configuration(module: Subject) -> Procedure[None]:
 # --- the protocol -----------------------------------------------------------------------------------------------------
 
 
-def _other_protocol(module: Subject) -> dcon.SetProtocol:
+def other_protocol(module: Subject) -> dcon.SetProtocol:
     stored = module.twin.state.eeprom.protocol
     return dcon.SetProtocol(module.address, Protocol.DCON if stored is Protocol.MODBUS_RTU else Protocol.MODBUS_RTU)
 
 
 def _protocol_refused(module: Subject) -> Procedure[None]:
     old = dcon.SetProtocol(module.address, module.twin.state.eeprom.protocol)
-    tries = _refused(module, _other_protocol(module))
+    tries = _refused(module, other_protocol(module))
     yield from unchanged(module, tries, old, dcon.ReadProtocol(module.address))
 
 
@@ -83,7 +83,7 @@ def _no_protocol(module: Subject) -> Procedure[None]:
     tries = not_carried_out(
         module,
         module.seal(body_of(module, old)[:-1] + b"2") + b"\r",
-        with_tail(module, _other_protocol(module)),
+        with_tail(module, other_protocol(module)),
     )
     yield from unchanged(module, tries, old, dcon.ReadProtocol(module.address))
 

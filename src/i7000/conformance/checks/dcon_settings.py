@@ -27,7 +27,7 @@ from i7000.host.procedures import Procedure
 from i7000.settings import CjcUpdate
 from i7000.type_codes import TypeCode
 
-__all__ = ["SETTLING", "STEPS", "other_type"]
+__all__ = ["SETTLING", "STEPS", "other_mask", "other_name", "other_type"]
 
 SETTLING = 1.0
 """The seconds after which a channel has readings of its new type."""
@@ -42,20 +42,20 @@ def _memory(module: Subject) -> Eeprom:
 # --- the channel mask -------------------------------------------------------------------------------------------------
 
 
-def _other_mask(module: Subject) -> int:
+def other_mask(module: Subject) -> int:
     """Return the mask with the last channel switched, but never an empty one."""
     return module.twin.state.enabled ^ 1 << module.channels.stop - 1 or 1
 
 
 def _set_mask(module: Subject) -> Procedure[None]:
-    new, old = (dcon.SetChannelMask(module.address, mask) for mask in (_other_mask(module), module.twin.state.enabled))
+    new, old = (dcon.SetChannelMask(module.address, mask) for mask in (other_mask(module), module.twin.state.enabled))
     reads = (dcon.ReadChannelMask(module.address), dcon.ReadAnalogInputs(module.address))
     yield from changed(module, new, old, *reads)
 
 
 def _no_other_mask(module: Subject) -> Procedure[None]:
     old = dcon.SetChannelMask(module.address, module.twin.state.enabled)
-    other = dcon.SetChannelMask(module.address, _other_mask(module))
+    other = dcon.SetChannelMask(module.address, other_mask(module))
     tries = _mask_tries(module, other)
     yield from unchanged(module, tries, old, dcon.ReadChannelMask(module.address))
 
@@ -214,18 +214,18 @@ def _no_other_flag(section: str, module: Subject) -> Procedure[None]:
 _NAMES = ("Test 7", "Test 8")
 
 
-def _other_name(module: Subject) -> dcon.SetModuleName:
+def other_name(module: Subject) -> dcon.SetModuleName:
     return dcon.SetModuleName(module.address, next(name for name in _NAMES if name != _memory(module).name))
 
 
 def _set_name(module: Subject) -> Procedure[None]:
     old = dcon.SetModuleName(module.address, _memory(module).name)
-    yield from changed(module, _other_name(module), old, dcon.ReadModuleName(module.address))
+    yield from changed(module, other_name(module), old, dcon.ReadModuleName(module.address))
 
 
 def _no_longer_name(module: Subject) -> Procedure[None]:
     old = dcon.SetModuleName(module.address, _memory(module).name)
-    body = body_of(module, _other_name(module))
+    body = body_of(module, other_name(module))
     tries = not_carried_out(module, module.seal(body + b"9") + b"\r", module.seal(body[:4]) + b"\r")
     yield from unchanged(module, tries, old, dcon.ReadModuleName(module.address))
 
