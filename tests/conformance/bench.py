@@ -1,5 +1,6 @@
 """A firmware under test in virtual time: the model of a module, and what a faulty one does otherwise."""
 
+import re
 from collections.abc import Callable, Generator, Iterable
 from typing import Any
 
@@ -19,16 +20,6 @@ ALL = frozenset(Hazard)
 Answer = Callable[[bytes, bytes | None], bytes | None]
 """What a firmware answers to a frame in place of the right answer."""
 Step = Callable[[State, bytes, Signals, float], tuple[State, bytes | None]]
-
-
-def answering(answer: Answer) -> Step:
-    """Return a firmware that answers otherwise, but does what the model does."""
-
-    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
-        after, wire = step(state, frame, signals, now)
-        return after, answer(frame, wire)
-
-    return altered
 
 
 @define
@@ -126,3 +117,53 @@ def undone(results: dict[str, CheckResult]) -> dict[str, tuple[Verdict, str]]:
 def failing(results: dict[str, CheckResult]) -> set[str]:
     """Return the ids of what failed."""
     return {it.id for it in results.values() if it.verdict is Verdict.FAIL}
+
+
+# --- faulty firmwares -------------------------------------------------------------------------------------------------
+
+
+def answering(answer: Answer) -> Step:
+    """Return a firmware that does what the model does, but answers otherwise."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        after, wire = step(state, frame, signals, now)
+        return after, answer(frame, wire)
+
+    return altered
+
+
+def hearing(heard: Callable[[bytes], bytes]) -> Step:
+    """Return a firmware that takes a frame for another one."""
+    return lambda state, frame, signals, now: step(state, heard(frame), signals, now)
+
+
+def replaced(pattern: bytes, by: bytes) -> Step:
+    """Return a firmware that takes what matches a pattern for something else."""
+    return hearing(lambda frame: re.sub(pattern, by, frame))
+
+
+def refusing(pattern: bytes) -> Step:
+    """Return a firmware that refuses, and does not carry out, frames that a pattern begins."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        if re.match(pattern, frame):
+            return state, b"?%02X\r" % state.ram.address
+        return step(state, frame, signals, now)
+
+    return altered
+
+
+def acknowledging(pattern: bytes) -> Step:
+    """Return a firmware that acknowledges frames that a pattern begins, and does nothing."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        if re.match(pattern, frame):
+            return state, b"!%02X\r" % state.ram.address
+        return step(state, frame, signals, now)
+
+    return altered
+
+
+def saying(pattern: bytes, by: bytes, *, to: bytes = b"") -> Step:
+    """Return a firmware whose answers have something else in place of a pattern, to frames that `to` begins."""
+    return answering(lambda frame, wire: re.sub(pattern, by, wire) if wire and re.match(to, frame) else wire)

@@ -75,7 +75,9 @@ def _blanks(module: Subject) -> Procedure[None]:
     all_channels = (1 << module.channels.stop) - 1
     if blank != all_channels & ~mask.mask:
         text = f"blanks in the channels of {blank:X}"
-        raise module.wrong(text, module.wire(command), heard, f"blanks in those that $AA6 has off: {mask.mask:X} are on")
+        raise module.wrong(
+            text, module.wire(command), heard, f"blanks in those that $AA6 has off: {mask.mask:X} are on"
+        )
 
 
 def _diagnostics(module: Subject) -> Procedure[None]:
@@ -89,7 +91,9 @@ def _diagnostics(module: Subject) -> Procedure[None]:
     else:
         raise Unclear("the readings go in and out of range", sent=module.wire(command), received=heard)
     if response.mask != before:
-        raise module.wrong(f"bits {response.mask:X}", module.wire(command), heard, f"{before:X}, the readings out of range")
+        raise module.wrong(
+            f"bits {response.mask:X}", module.wire(command), heard, f"{before:X}, the readings out of range"
+        )
 
 
 def _faults(module: Subject) -> Procedure[int]:

@@ -1,5 +1,6 @@
-"""The DCON commands (manual 2): what is read, sampled and unknown. The others are in `dcon_settings`,
-`dcon_line` and `dcon_calibration`.
+"""The DCON commands (manual 2): what is read, sampled and unknown.
+
+`dcon_settings`, `dcon_line` and `dcon_calibration` have those that change something.
 
 Laws: a command with other characters after it is never carried out. Whether the module is silent then or answers
 ``?AA`` is open (E27).
@@ -97,7 +98,9 @@ def _sampled(module: Subject) -> Procedure[dcon.SynchronizedData | None]:
     try:
         response = dcon.decode_response(heard, command, module.profile)
     except DecodeError as error:
-        raise module.wrong(str(error), wire, heard, f">{module.address:02X}S(Data), or {_text(module.refused)}") from None
+        raise module.wrong(
+            str(error), wire, heard, f">{module.address:02X}S(Data), or {_text(module.refused)}"
+        ) from None
     return response if isinstance(response, dcon.SynchronizedData) else None
 
 
@@ -195,7 +198,9 @@ def _text(wire: bytes) -> str:
 STEPS: dict[str, Steps] = {
     **{f"dcon/{command.section}/reply": partial(_reply, command) for command in _READS},
     **{f"dcon/{command.section}/reply-n1": partial(_not_longer, command) for command in _READS},
-    **{f"dcon/{section}/reply": partial(_reply_of_channels, command) for section, command in _READS_OF_CHANNELS.items()},
+    **{
+        f"dcon/{section}/reply": partial(_reply_of_channels, command) for section, command in _READS_OF_CHANNELS.items()
+    },
     **{
         f"dcon/{section}/reply-n1": partial(_channel_not_longer, command)
         for section, command in _READS_OF_CHANNELS.items()

@@ -78,7 +78,9 @@ def _each_carried_out(module: Subject, commands: tuple[dcon.Command[Any], ...]) 
 def _calibrate(section: str, module: Subject) -> Procedure[None]:
     """Calibrate the first channel and the last one, or all at once."""
     commands = _CALIBRATIONS[section](module)
-    yield from _disabled_at_the_end(module, _each_carried_out(module, tuple(dict.fromkeys((commands[0], commands[-1])))))
+    yield from _disabled_at_the_end(
+        module, _each_carried_out(module, tuple(dict.fromkeys((commands[0], commands[-1]))))
+    )
 
 
 def _not_calibrated(section: str, module: Subject) -> Procedure[None]:
@@ -122,7 +124,9 @@ def _enable_and_disable(module: Subject) -> Procedure[None]:
 def _not_enabled(module: Subject) -> Procedure[None]:
     yield from module.expect(_enable(module, enabled=False))
     body = body_of(module, _enable(module, enabled=True))
-    tries = not_carried_out(module, module.seal(body[:-1] + b"2") + b"\r", with_tail(module, _enable(module, enabled=True)))
+    tries = not_carried_out(
+        module, module.seal(body[:-1] + b"2") + b"\r", with_tail(module, _enable(module, enabled=True))
+    )
     yield from _disabled_at_the_end(module, _still_refused(module, tries))
 
 

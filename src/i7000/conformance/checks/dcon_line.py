@@ -8,8 +8,8 @@ from functools import partial
 from attrs import evolve
 
 from i7000 import dcon
-from i7000.conformance.checks.steps import Steps, body_of, changed, not_carried_out, put_back, unchanged, with_tail
 from i7000.conformance.checks.dcon_settings import other_type
+from i7000.conformance.checks.steps import Steps, body_of, changed, not_carried_out, put_back, unchanged, with_tail
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason
 from i7000.host.procedures import Procedure
@@ -64,6 +64,7 @@ def _no_configuration(module: Subject) -> Procedure[None]:
 
 
 def other_protocol(module: Subject) -> dcon.SetProtocol:
+    """Return the command that sets the protocol that is not stored."""
     stored = module.twin.state.eeprom.protocol
     return dcon.SetProtocol(module.address, Protocol.DCON if stored is Protocol.MODBUS_RTU else Protocol.MODBUS_RTU)
 

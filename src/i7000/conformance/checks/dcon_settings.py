@@ -85,8 +85,9 @@ def _set_type(module: Subject) -> Procedure[None]:
     try:
         yield from module.expect(new)
         yield from module.wait(SETTLING)
-        for read in (*reads, dcon.ReadAnalogInputs(module.address)):
+        for read in reads:
             yield from module.expect(read)
+        yield from module.expect(dcon.ReadAnalogInputs(module.address))
     except Reason:
         yield from put_back(module, old)
         raise
@@ -196,9 +197,7 @@ _FLAGS: dict[str, tuple[Any, type[dcon.Command[Any]], str]] = {
 def _set_flag(section: str, module: Subject) -> Procedure[None]:
     command, read, name = _FLAGS[section]
     now = getattr(_memory(module), name)
-    yield from changed(
-        module, command(module, enabled=not now), command(module, enabled=now), read(module.address)
-    )
+    yield from changed(module, command(module, enabled=not now), command(module, enabled=now), read(module.address))
 
 
 def _no_other_flag(section: str, module: Subject) -> Procedure[None]:
@@ -215,6 +214,7 @@ _NAMES = ("Test 7", "Test 8")
 
 
 def other_name(module: Subject) -> dcon.SetModuleName:
+    """Return the command that sets a name of six characters, which is not that of the module."""
     return dcon.SetModuleName(module.address, next(name for name in _NAMES if name != _memory(module).name))
 
 
@@ -244,8 +244,9 @@ def _set_mode(module: Subject) -> Procedure[None]:
     try:
         yield from module.expect(_mode(module, single_ended=not now))
         yield from module.expect(dcon.ReadConnectingMode(module.address))
-        for command in (dcon.ReadAnalogInputs(module.address), dcon.ReadChannelMask(module.address)):
-            yield from told(module, command, evolve(module.profile, type_codes=()))
+        untyped = evolve(module.profile, type_codes=())  # those of channels that have just appeared are unknown
+        yield from told(module, dcon.ReadAnalogInputs(module.address), untyped)
+        yield from told(module, dcon.ReadChannelMask(module.address), untyped)
     except Reason:
         yield from put_back(module, old)
         raise

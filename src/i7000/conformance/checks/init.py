@@ -6,6 +6,7 @@ written back at the settings that it has, and at those that it could have taken 
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 from attrs import evolve
 
@@ -17,7 +18,7 @@ from i7000.conformance.oracle import Twin
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason, Skipped, SkipReason
 from i7000.host.procedures import Procedure
-from i7000.settings import BaudRate, Protocol
+from i7000.settings import BaudRate
 
 __all__ = ["STEPS"]
 
@@ -28,6 +29,8 @@ _WINDOW = 30
 _SETTLING = 0.1
 """The seconds after which a module has taken new line settings."""
 
+Change = tuple[dcon.Command[dcon.Acknowledged], dcon.Command[dcon.Acknowledged]]
+"""A command that changes a setting, and the one that changes it back."""
 Changing = Callable[[dcon.SetConfiguration], dcon.SetConfiguration]
 
 
@@ -125,7 +128,9 @@ def _by_soft_init(change: Changing, module: Subject) -> Procedure[None]:
         yield from module.expect(dcon.SetSoftInitTimeout(module.address, 0))
     except Reason:
         yield from _written_back(module, change(old), old)
-        module.twin = Twin(module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings))
+        module.twin = Twin(
+            module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings)
+        )
         raise
 
 
@@ -175,7 +180,9 @@ def _stored(module: Subject, command: dcon.Command[dcon.Acknowledged]) -> Proced
     yield from module.expect(dcon.ReadModuleName(module.address))
 
 
-def _by_switch(command: dcon.Command[dcon.Acknowledged], old: dcon.Command[dcon.Acknowledged], module: Subject) -> Procedure[None]:
+def _by_switch(
+    command: dcon.Command[dcon.Acknowledged], old: dcon.Command[dcon.Acknowledged], module: Subject
+) -> Procedure[None]:
     """Set something in INIT mode, which is used after the next power-on, and set it back."""
     module.reserve(2)
     try:
@@ -202,7 +209,9 @@ def _protocol_by_switch(module: Subject) -> Procedure[None]:
 
 
 def _kept(
-    module: Subject, changes: list[tuple[dcon.Command[dcon.Acknowledged], dcon.Command[dcon.Acknowledged]]], *reads: dcon.Command[dcon.Response]
+    module: Subject,
+    changes: list[Change],
+    *reads: dcon.Command[Any],
 ) -> Procedure[None]:
     """Change settings, switch the power off and on, read them, and change them back."""
     yield from module.power_cycle()
@@ -222,11 +231,11 @@ def _kept(
 
 def _settings_kept(module: Subject) -> Procedure[None]:
     memory, address = module.twin.state.eeprom, module.address
-    changes: list[tuple[dcon.Command[dcon.Acknowledged], dcon.Command[dcon.Acknowledged]]] = [
+    changes: list[Change] = [
         (other_name(module), dcon.SetModuleName(address, memory.name)),
         (dcon.SetChannelMask(address, other_mask(module)), dcon.SetChannelMask(address, module.twin.state.enabled)),
     ]
-    reads: list[dcon.Command[dcon.Response]] = [dcon.ReadModuleName(address), dcon.ReadChannelMask(address)]
+    reads: list[dcon.Command[Any]] = [dcon.ReadModuleName(address), dcon.ReadChannelMask(address)]
     if dcon.SetChannelTypeCode.availability not in module.profile.refused:
         now = memory.type_codes[0]
         new, old = (dcon.SetChannelTypeCode(address, 0, code) for code in (other_type(module, now), now))
@@ -241,7 +250,9 @@ def _settings_kept(module: Subject) -> Procedure[None]:
 
 def _configuration_kept(module: Subject) -> Procedure[None]:
     new, old = other_configuration(module), configuration(module)
-    yield from _kept(module, [(new, old)], dcon.ReadConfiguration(module.address), dcon.ReadAnalogInputs(module.address))
+    yield from _kept(
+        module, [(new, old)], dcon.ReadConfiguration(module.address), dcon.ReadAnalogInputs(module.address)
+    )
 
 
 def _no_samples(module: Subject) -> Procedure[None]:

@@ -54,9 +54,7 @@ def agree(module: Subject, one: Ask, other: Ask) -> Procedure[None]:
             raise found
 
 
-def _difference(
-    types: Sequence[TypeCode], before: Asked, between: Asked, after: Asked
-) -> Difference | Unclear | None:
+def _difference(types: Sequence[TypeCode], before: Asked, between: Asked, after: Asked) -> Difference | Unclear | None:
     found: Unclear | None = None
     for (channel, low), (_, middle), (_, high) in zip(before.readings, between.readings, after.readings, strict=True):
         code = types[channel]

@@ -8,12 +8,12 @@ from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason
 from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
-from i7000.message import Query, Response
+from i7000.message import Query
 from i7000.profile import Profile
 
 __all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "told", "unchanged", "with_tail"]
 
-R = TypeVar("R", bound=Response)
+R = TypeVar("R", bound=dcon.Response)
 
 Steps = Callable[[Subject], Procedure[None]]
 """The steps of a check: a generator function of the module under test. It passes by ending."""

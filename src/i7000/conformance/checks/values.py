@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 from attrs import evolve
 
@@ -15,7 +16,7 @@ from i7000.conformance.verdict import Difference, Note, Reason, Skipped, SkipRea
 from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
 from i7000.message import Query
-from i7000.readings import Reading, Status
+from i7000.readings import Status
 from i7000.settings import DataFormat, ModbusDataFormat, Protocol
 from i7000.type_codes import TypeCode
 
@@ -28,7 +29,7 @@ _MOST_TYPES = 11
 # --- asking -----------------------------------------------------------------------------------------------------------
 
 
-def asked_at_once(module: Subject, command: dcon.Command[dcon.AnalogInputs | dcon.AnalogInputsHex]) -> Procedure[Asked]:
+def asked_at_once(module: Subject, command: dcon.Command[Any]) -> Procedure[Asked]:
     """Read all channels by one DCON command, and decode them with their types."""
     response, heard = yield from told(module, command)
     wire = module.wire(command)
@@ -112,7 +113,7 @@ def _in_modbus_format(module: Subject) -> Procedure[None]:
     yield from _between_formats(module, new, old)
 
 
-def _between_formats(module: Subject, new: Query[object], old: Query[object]) -> Procedure[None]:
+def _between_formats(module: Subject, new: Query[Any], old: Query[Any]) -> Procedure[None]:
     """Change the format between two readings; it is as it was at the end."""
 
     def other() -> Procedure[Asked]:
