@@ -1,6 +1,7 @@
 """Fixtures, and how hard Hypothesis searches.
 
-Profiles: `dev`; `ci` where ``CI`` is set; `fast` for ``python -m tests --fast``; `fuzz`, asked for by name, for hours.
+Profiles: `dev`; `ci` where ``CI`` is set; `fast` for ``python -m tests --fast``; `mutation` for mutants, whose failures
+nobody reads; `fuzz`, asked for by name, for hours.
 """
 
 import os
@@ -8,7 +9,7 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 from tests.terminal import plain, run
 from tests.workbench import answered, workbench
@@ -22,6 +23,7 @@ settings.register_profile(
     "ci", settings.get_profile("dev"), max_examples=40, derandomize=True, print_blob=True, database=None
 )
 settings.register_profile("fast", settings.get_profile("ci"), max_examples=6)
+settings.register_profile("mutation", settings.get_profile("ci"), phases=(Phase.explicit, Phase.generate))
 settings.register_profile("fuzz", settings.get_profile("dev"), max_examples=20_000, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "dev")
 

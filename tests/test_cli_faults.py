@@ -11,7 +11,12 @@ from tests.terminal import refusal
 
 PROBABILITIES = st.floats(0, 1, exclude_min=True)
 ANYWHERE = st.sampled_from(["drop", "flip", "noise"])
-OF_ANSWERS = st.sampled_from(["late", "silent", "refuse", "replay", "misaddress", "truncate", "duplicate"]) | ANYWHERE
+OF_ANSWERS = ANYWHERE | st.sampled_from(
+    [
+        "late", "silent", "refuse", "replay", "misaddress", "misfunction", "corrupt", "lookalike", "trailing",
+        "truncate", "duplicate", "split",
+    ]
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -21,8 +26,9 @@ OF_ANSWERS = st.sampled_from(["late", "silent", "refuse", "replay", "misaddress"
         ("drop", "give a probability, such as drop=0.01"),
         ("drop=much", "give a probability"),
         ("late", "give a probability, such as late=0.1:0.25"),
-        ("drop=0.1:3", "only late has a time, and refuse a code"),
+        ("drop=0.1:3", "only late and split have a time, and refuse a code"),
         ("late=0.1:soon", "'late=0.1:soon': 'soon' is not a number of seconds, such as late=0.1:0.25"),
+        ("split=0.1:61", "the number of seconds of split cannot be 61: 0..60"),
         ("late=0.1:61", "the number of seconds of late cannot be 61: 0..60"),
         ("flip=2", "flip cannot be 2: 0..1"),
         ("flip=nan", "flip cannot be nan: 0..1"),
@@ -69,7 +75,7 @@ def test_faults_can_be_changed_and_switched_off_one_by_one() -> None:
 
 
 def test_faults_are_shown_as_they_are_written() -> None:
-    texts = "echo lumps drop=0.01 late=0.1:0.3 refuse=1:2 drop=0.01@to lumps=off@01h late=0.5:1@01h"
+    texts = "echo lumps drop=0.01 late=0.1:0.3 refuse=1:2 split=0.5:0.02 drop=0.01@to lumps=off@01h late=0.5:1@01h"
 
     assert texts == faults_words(read_faults(texts.split()))
     assert faults_words(Faults(late_by=0.5)) == "late=0:0.5"

@@ -46,8 +46,9 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "codecs", "collections", "contextlib", "decimal", "enum", "functools", "itertools", "json", "linecache",
-    "math", "operator", "re", "struct", "types", "typing",
+    "attrs", "bisect", "codecs", "collections", "contextlib", "datetime", "decimal", "enum", "functools", "itertools",
+    "difflib", "fnmatch", "hashlib", "html", "json", "linecache", "math", "operator", "random", "re", "shlex", "struct",
+    "types", "typing", "xml",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))
 

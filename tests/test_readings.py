@@ -2,14 +2,16 @@
 
 import math
 import re
+from collections.abc import Callable
 
 import pytest
 
-from i7000 import DataFormat, DecodeError, EncodeError, Fault, Reading, Status, TypeCode, Unit
+from i7000 import DataFormat, DecodeError, EncodeError, Fault, Model, Profile, Reading, Status, TypeCode, Unit
 from i7000.fields import split_fields
 from i7000.readings import (
     decode_engineering_word,
     decode_field,
+    decode_fields,
     decode_word,
     encode_engineering_word,
     encode_field,
@@ -290,3 +292,88 @@ def test_a_report_of_several_types_has_the_decimals_of_each() -> None:
 
     assert encode_fields(readings, (TypeCode.V_10, TypeCode.K), DataFormat.ENGINEERING) == ("+01.500", "+0025.1")
     assert encode_fields(readings, (TypeCode.V_10, TypeCode.K), DataFormat.PERCENT) == ("+015.00", "+001.83")
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "data_format", "ends"),
+    [
+        ("+11.001", TypeCode.V_10, DataFormat.ENGINEERING, "08 (-10..10 V) sends -11.000..+11.000"),
+        ("+1.0000", TypeCode.V_10, DataFormat.ENGINEERING, "08 (-10..10 V) sends -11.000..+11.000"),
+        ("+110.01", TypeCode.V_10, DataFormat.PERCENT, "08 (-10..10 V) sends -110.00..+110.00"),
+        ("+200.00", TypeCode.J, DataFormat.PERCENT, "0E (J) sends -037.63..+110.00"),
+        ("8001", TypeCode.J, DataFormat.HEX, "0E (J) sends -286..836 degC"),
+    ],
+)
+def test_a_number_that_no_module_sends_is_refused_with_what_it_sends(
+    text: str, code: TypeCode, data_format: DataFormat, ends: str
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        decode_field(text, code, data_format)
+
+    assert str(caught.value) == f"number in value at byte 0 of {text}; allowed: type {ends} (manual 1.11)"
+    assert (caught.value.wire, caught.value.field) == (text.encode(), "value")
+
+
+def test_a_number_of_a_channel_that_no_module_sends_is_refused_with_the_channel() -> None:
+    profile = Profile(Model.I_7017, type_codes=(TypeCode.V_10,) * 8)
+    texts = ("+01.000", "+11.500") + ("+01.000",) * 6
+
+    with pytest.raises(DecodeError) as caught:
+        decode_fields(texts, profile, DataFormat.ENGINEERING)
+
+    assert str(caught.value) == (
+        "number in the value of channel 1 at byte 0 of +11.500; allowed: type 08 (-10..10 V) sends -11.000..+11.000"
+        " (manual 1.11)"
+    )
+    assert decode_fields(texts, profile, DataFormat.ENGINEERING, lenient=True)[1].value == 11.5
+
+
+@pytest.mark.parametrize("decode", [decode_word, decode_engineering_word])
+@pytest.mark.parametrize("word", [-1, 65536])
+def test_what_is_no_word_is_refused(decode: Callable[[int, TypeCode], Reading], word: int) -> None:
+    with pytest.raises(DecodeError) as caught:
+        decode(word, TypeCode.V_10)
+
+    assert str(caught.value) == f"number in word at byte 0 of {word}; allowed: 0..65535 (manual A.5)"
+    assert caught.value.field == "word"
+
+
+@pytest.mark.parametrize(
+    ("encode", "code", "reading", "message"),
+    [
+        (
+            encode_word, TypeCode.V_10, (None, Status.OVER_RANGE),
+            "status cannot be 'over_range': ok for a word of type 08",
+        ),
+        (
+            encode_word, TypeCode.MA_4_20, (None, Status.OVER_RANGE),
+            "status cannot be 'over_range': ok, under_range for a word of type 07",
+        ),
+        (
+            encode_engineering_word, TypeCode.V_10, (None, Status.DISABLED),
+            "status cannot be 'disabled': ok, over_range, under_range for a word of type 08",
+        ),
+        (encode_word, TypeCode.V_10, (1.0, Status.OVER_RANGE), "value cannot be 1.0: None with status over_range"),
+        (encode_word, TypeCode.V_10, (1.0, "ok"), "status cannot be 'ok': a Status"),
+        (
+            encode_word, TypeCode.V_10, (math.nan, Status.OK),
+            "value cannot be nan: a finite number that a module can measure",
+        ),
+        (encode_word, TypeCode.V_10, (10.5, Status.OK), "value cannot be 10.5: -10..10 V (type 08)"),
+        (encode_word, TypeCode.MA_4_20, (21.0, Status.OK), "value cannot be 21.0: 4..20 mA (type 07)"),
+        (encode_engineering_word, TypeCode.V_10, (10.5, Status.OK), "value cannot be 10.5: -10..10 V (type 08)"),
+    ],
+)  # fmt: skip
+def test_a_reading_without_a_word_is_refused_with_the_reason(
+    encode: Callable[[Reading, TypeCode], int], code: TypeCode, reading: tuple[float | None, Status], message: str
+) -> None:
+    value, status = reading
+    with pytest.raises(EncodeError) as caught:
+        encode(Reading(value, code.unit, status), code)
+
+    assert str(caught.value) == f"{message}, manual 1.11"
+
+
+def test_a_unit_of_another_type_is_refused_with_the_reason() -> None:
+    with pytest.raises(EncodeError, match=r"unit cannot be 'MILLIVOLT': V, the unit of type 08, manual 1.11"):
+        encode_word(Reading(1.0, Unit.MILLIVOLT), TypeCode.V_10)

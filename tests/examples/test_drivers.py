@@ -108,7 +108,7 @@ def test_what_no_module_has_ends_a_program_with_what_is_allowed(
 def test_an_address_is_decimal_unless_it_is_marked_as_hex(address: str) -> None:
     task = read_task(["/dev/null", "--model", "M-7019R", "--address", address])
 
-    assert task.command == dcon.ReadAnalogInputs(10)
+    assert task.commands == (dcon.ReadAnalogInputs(10),)
 
 
 @either
@@ -168,14 +168,14 @@ def test_what_was_rejected_is_printed_beside_a_timeout(
     others: tuple[Rejected | Late | Noise, ...], text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     command = dcon.ReadAnalogInputs(0x01)
-    task = Task("", FAST, PROFILE, command, echo=False)
+    task = Task("", FAST, PROFILE, (command,), echo=False)
 
-    assert task.show(Result(TimedOut(command), others)) == 1
+    assert task.show(command, Result(TimedOut(command), others)) == 1
     assert capsys.readouterr().out == f"{TimedOut(command)}\n{text}{HINT}"
 
 
 def test_a_timeout_by_modbus_has_no_hint_at_modbus(capsys: pytest.CaptureFixture[str]) -> None:
     command = modbus.ReadInputRegisters(0x01, 0, 8)
 
-    assert Task("", FAST, PROFILE, command, echo=False).show(Result(TimedOut(command))) == 1
+    assert Task("", FAST, PROFILE, (command,), echo=False).show(command, Result(TimedOut(command))) == 1
     assert capsys.readouterr().out == f"{TimedOut(command)}\n"

@@ -1,8 +1,10 @@
 """The envelope, beyond the vectors."""
 
+from collections.abc import Callable
+
 import pytest
 
-from i7000 import DecodeError, Fault
+from i7000 import ArgumentError, DecodeError, Fault
 from i7000.modbus import LONGEST_FRAME, SHORTEST_FRAME, crc16, seal, unseal
 from tests.crc import crc
 
@@ -52,3 +54,37 @@ def test_one_or_two_wrong_bits_are_always_noticed() -> None:
         for second in bits:
             damaged = sent ^ (first | second)
             assert crc16(damaged.to_bytes(len(frame), "big")) != 0
+
+
+@pytest.mark.parametrize(
+    ("frame", "offset", "field", "message"),
+    [
+        (b"\1\2\3", 3, "", "length at byte 3 of 01 02 03; allowed: 4 to 256 bytes (manual 3)"),
+        (b"\1\3\2\0", 2, "crc", "crc at byte 2 of 01 03 02 00; allowed: 40 21 (manual 3)"),
+        (
+            b"\1" * 257, 256, "",
+            f"length at byte 256 of {'01 ' * 19}01... (257 bytes); allowed: 4 to 256 bytes (manual 3)",
+        ),
+    ],
+)  # fmt: skip
+def test_an_error_has_every_fact_of_the_damage(frame: bytes, offset: int, field: str, message: str) -> None:
+    with pytest.raises(DecodeError) as caught:
+        unseal(frame)
+
+    assert (frame, offset, field, message) == (
+        caught.value.wire, caught.value.offset, caught.value.field, str(caught.value),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "call"), [("data", crc16), ("body", seal), ("frame", unseal)])
+def test_an_argument_of_the_wrong_type_is_named(name: str, call: Callable[[object], object]) -> None:
+    with pytest.raises(ArgumentError) as caught:
+        call(1)
+
+    assert str(caught.value) == f"{name} must be bytes, bytearray or memoryview, not 1 (int)"
+
+
+def test_whatever_holds_bytes_is_taken() -> None:
+    assert crc16(memoryview(b"123456789")) == 0x4B37
+    assert seal(bytearray(b"123456789")) == b"123456789" + b"\x37\x4b"
+    assert unseal(bytearray(b"123456789\x37\x4b")) == b"123456789"

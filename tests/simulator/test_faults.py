@@ -173,9 +173,99 @@ def test_an_answer_to_no_address_is_not_refused(request_: bytes) -> None:
     assert arrived(Faults(refuse=1.0), b"!01\r", Exchange(request_, DCON)) == (b"!01\r", "")
 
 
+READ = Exchange(b"#01\r", DCON)
+REGISTERS = modbus.seal(b"\x01\x04\x04\x00\x01\x00\x02")
+
+
+@pytest.mark.parametrize(
+    ("answer", "exchange", "other", "told"),
+    [
+        (b">+025.12\r", READ, b"!01+025.12\r", "with ! in place of >"),
+        (b"!017018\r", NAMED, b">7018\r", "with > in place of !"),
+        (
+            dcon.seal(b">+025.12", checksum=True),
+            evolve(READ, checksum=True),
+            dcon.seal(b"!01+025.12", checksum=True),
+            "with ! in place of >",
+        ),
+        (REGISTERS, COILS, modbus.seal(b"\x01\x03\x04\x00\x01\x00\x02"), "with function 03"),
+        (modbus.seal(b"\x01\x84\x02"), COILS, modbus.seal(b"\x01\x47\x02"), "with function 47"),
+    ],
+)
+def test_an_answer_to_another_command_is_well_formed(
+    answer: bytes, exchange: Exchange, other: bytes, told: str
+) -> None:
+    assert arrived(Faults(misfunction=1.0), answer, exchange) == (other, told)
+
+
+@pytest.mark.parametrize(
+    ("answer", "exchange"),
+    [(b"?01\r", NAMED), (b"!01\r", NAMED), (b">+1\r", Exchange(b"#x\r", DCON)), (b"\x01\x04", COILS), (b"", READ)],
+)
+def test_an_answer_to_no_other_command_stays_as_it_is(answer: bytes, exchange: Exchange) -> None:
+    assert arrived(Faults(misfunction=1.0), answer, exchange) == (answer, "")
+
+
+@given(st.binary(min_size=1, max_size=100), st.integers(0, 1000))
+def test_one_bit_of_a_corrupt_answer_is_wrong(answer: bytes, seed: int) -> None:
+    wire, told = arrived(Faults(corrupt=1.0), answer, seed=seed)
+
+    assert sum((one ^ other).bit_count() for one, other in zip(answer, wire, strict=True)) == 1
+    assert told.endswith("flipped")
+
+
+@pytest.mark.parametrize(
+    ("answer", "exchange", "before"),
+    [
+        (b">+025.12+1\r", READ, b">+025.12+\r"),
+        (dcon.seal(b">+025.12", checksum=True), evolve(READ, checksum=True), dcon.seal(b">+025.1", checksum=True)),
+        (REGISTERS, COILS, modbus.seal(b"\x01\x04\x02\x00\x01")),
+    ],
+)
+def test_a_frame_that_looks_like_the_answer_is_good_and_shorter(
+    answer: bytes, exchange: Exchange, before: bytes
+) -> None:
+    wire, told = arrived(Faults(lookalike=1.0), answer, exchange)
+
+    assert wire == before + answer
+    assert told == f"a frame of {len(before)} bytes that looks like it before"
+
+
+@pytest.mark.parametrize(
+    ("answer", "exchange"),
+    [(b"!01\r", NAMED), (modbus.seal(b"\x01\x04\x02\x00\x01"), COILS), (b"", COILS), (ANSWER, None)],
+)
+def test_nothing_shorter_looks_like_the_shortest_answer(answer: bytes, exchange: Exchange | None) -> None:
+    assert arrived(Faults(lookalike=1.0), answer, exchange) == (answer, "")
+
+
+def test_the_crc_of_an_answer_stays_good_with_the_zero_after_it() -> None:
+    wire, told = arrived(Faults(trailing=1.0), REGISTERS, COILS)
+
+    assert (wire, told) == (REGISTERS + b"\0", "00 after it")
+    assert modbus.crc16(wire) == 0
+
+
+@given(st.binary(min_size=2, max_size=100), st.integers(0, 1000))
+def test_a_split_answer_arrives_in_two_pieces(answer: bytes, seed: int) -> None:
+    first, second = Faults(split=1.0, split_by=0.02).delivered(answer, CHARACTER, Random(seed)).pieces
+
+    assert first.wire + second.wire == answer
+    assert first.wire
+    assert second.wire
+    assert (first.after, second.after) == (0.0, 0.02)
+
+
+def test_one_byte_cannot_be_split() -> None:
+    assert Faults(split=1.0).delivered(b"x", CHARACTER, Random(0)) == Transfer((Piece(b"x"),))
+
+
 @given(st.binary(max_size=80), st.binary(max_size=20), st.sampled_from(Protocol), st.integers(0, 99))
 def test_any_bytes_are_delivered_with_any_fault(answer: bytes, request_: bytes, protocol: Protocol, seed: int) -> None:
-    every = {"silent", "refuse", "replay", "misaddress", "truncate", "duplicate", "drop", "flip", "noise", "late"}
+    every = {
+        "silent", "refuse", "replay", "misaddress", "misfunction", "corrupt", "lookalike", "trailing", "truncate",
+        "duplicate", "drop", "flip", "noise", "late", "split",
+    }  # fmt: skip
     faults = Faults(lumps=True, **dict.fromkeys(every, 0.5))  # type: ignore[arg-type]
     exchange = Exchange(request_, protocol, seed % 2 == 0, b"!01\r")
 

@@ -187,6 +187,7 @@ def test_of_late_answers_no_more_are_kept_than_there_is_room_for(command: bytes,
     lost = asyncio.run(converse())
 
     assert lost == 2000 - room
+    assert [[piece.after for piece in it.pieces] for it in observed] == [[60.0]] * room + [[]] * lost
     assert [it.faults for it in observed] == [("late by 60 s",)] * room + [
         ("late by 60 s", "an answer was lost: too many are late")
     ] * lost

@@ -41,6 +41,7 @@ SCHEMAS = {
     "vectors/frames/rtu_split.json": "rtu_split_vectors",
     "vectors/frames/crc.json": "crc_vectors",
     "stories": "stories",
+    "checks": "checks",
 }
 """Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""
 
@@ -69,6 +70,11 @@ def vector_files(folder: str = "") -> list[Path]:
 def story_files() -> list[Path]:
     """Every file of stories."""
     return sorted((SPEC / "stories").glob("*.json"))
+
+
+def check_files() -> list[Path]:
+    """Every file of checks."""
+    return sorted((SPEC / "checks").glob("*.json"))
 
 
 def name(path: Path) -> str:

@@ -16,9 +16,9 @@ from i7000.simulator.faults import Faults, Way
 
 __all__ = ["faults_words", "read_faults"]
 
-_SECOND = {"late": "late_by", "refuse": "refuse_code"}
+_SECOND = {"late": "late_by", "refuse": "refuse_code", "split": "split_by"}
 """The faults that have another value after the probability."""
-_SECOND_WORDS = {"late": "number of seconds", "refuse": "code"}
+_SECOND_WORDS = {"late": "number of seconds", "refuse": "code", "split": "number of seconds"}
 _DEFAULT = Faults()
 _FAULTS = [name for name in fields_dict(Faults) if name not in {*_SECOND.values(), "scoped"}]
 _SWITCHES = [name for name in _FAULTS if isinstance(getattr(_DEFAULT, name), bool)]
@@ -63,7 +63,7 @@ def _values(text: str, whole: str) -> tuple[str, dict[str, Any]]:
         return name, {name: truth(value) if equals else True}
     probability, colon, second = value.partition(":")
     if colon and name not in _SECOND:
-        raise UsageError(f"{whole!r}: only late has a time, and refuse a code")
+        raise UsageError(f"{whole!r}: only late and split have a time, and refuse a code")
     example = f"such as {name}={_EXAMPLES.get(name, '0.01')}"
     try:
         found: dict[str, Any] = {name: float(probability)}
@@ -71,13 +71,13 @@ def _values(text: str, whole: str) -> tuple[str, dict[str, Any]]:
         raise UsageError(f"{whole!r}: give a probability, {example}") from None
     if colon:
         try:
-            found[_SECOND[name]] = float(second) if name == "late" else integer(second)
+            found[_SECOND[name]] = integer(second) if name == "refuse" else float(second)
         except (ValueError, UsageError):
             raise UsageError(f"{whole!r}: {second!r} is not a {_SECOND_WORDS[name]}, {example}") from None
     return name, found
 
 
-_EXAMPLES = {"late": "0.1:0.25", "refuse": "0.1:02h"}
+_EXAMPLES = {"late": "0.1:0.25", "refuse": "0.1:02h", "split": "0.1:0.05"}
 
 
 def _where(text: str, whole: str) -> Way | int:

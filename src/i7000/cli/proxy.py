@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000.cli.options import Texts
+from i7000.cli.places import DEFAULT_PLACES, PlaceOptions
 from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
 from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
@@ -17,14 +18,6 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     target: Target,
     /,
     *,
-    pty: Annotated[
-        bool,
-        Parameter(
-            help="Open a pseudo-terminal. The default without --tcp and --rfc2217.", negative="", show_default=False
-        ),
-    ] = False,
-    tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
-    rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
     fault: Annotated[
         Texts,
         Parameter(help="A fault of the line, as for `i7000 simulate`; repeat it for each. Example: late=0.25:0.9@01."),
@@ -38,6 +31,7 @@ def proxy(  # noqa: PLR0913 - each of them is an option
             allow_leading_hyphen=True,
         ),
     ] = None,
+    place: PlaceOptions = DEFAULT_PLACES,
     recording: RecordOptions = NOWHERE,
     line: LineOptions = DEFAULT_LINE,
 ) -> int:
@@ -64,18 +58,16 @@ def proxy(  # noqa: PLR0913 - each of them is an option
     """
     from i7000.cli import proxying  # noqa: PLC0415 - what it needs may not be there
     from i7000.cli.faults import read_faults  # noqa: PLC0415
-    from i7000.cli.serving import read_place  # noqa: PLC0415
 
     if target.startswith("sim:"):
         raise UsageError("simulated modules have faults of their own: i7000 simulate --fault")
-    places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     proxied = proxying.Proxied(
         target,
         line.settings(),
         read_faults(fault),
         seed,
-        pty or not places,
-        tuple(places),
+        place.has_pty,
+        place.places(),
         view,
         control,
         recording,

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from i7000.cli.options import Texts
+from i7000.cli.places import DEFAULT_PLACES, PlaceOptions
 from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
@@ -19,14 +20,6 @@ def simulate(  # noqa: PLR0913 - each of them is an option
         Texts,
         Parameter(help="A module, as MODEL[@FIRMWARE][,name=value...]; repeat it for each. Example: M-7019R,type=K."),
     ] = (),
-    pty: Annotated[
-        bool,
-        Parameter(
-            help="Open a pseudo-terminal. The default without --tcp and --rfc2217.", negative="", show_default=False
-        ),
-    ] = False,
-    tcp: Annotated[str | None, Parameter(help="Listen for TCP at [HOST:]PORT, plain bytes. Example: 5020.")] = None,
-    rfc2217: Annotated[str | None, Parameter(help="Listen for RFC 2217 at [HOST:]PORT. Example: 5021.")] = None,
     signal: Annotated[
         Texts,
         Parameter(help="A signal at the inputs, as [ADDRESS:]CHANNELS=SIGNAL. Example: 0=1.5V."),
@@ -54,6 +47,7 @@ def simulate(  # noqa: PLR0913 - each of them is an option
             allow_leading_hyphen=True,
         ),
     ] = None,
+    place: PlaceOptions = DEFAULT_PLACES,
     recording: RecordOptions = NOWHERE,
 ) -> int:
     """Simulate modules on a line, until Ctrl-C.
@@ -79,6 +73,9 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       responses: `late=P[:SECONDS]` (0.3 s), `silent=P`, `truncate=P`, `duplicate=P`, `misaddress=P` (the address of
       another module), `replay=P` (the response to an earlier request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception
       with CODE, 4). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+    * More faults of responses: `misfunction=P` (another function code; `!AA` for `>`), `corrupt=P` (one bit is
+      flipped), `lookalike=P` (a shorter frame with a good checksum before it), `trailing=P` (00 after it),
+      `split=P[:SECONDS]` (in two pieces, 0.05 s apart).
     * After a fault, `@to` limits it to requests, `@from` to responses, and `@01` to the responses of address 01:
       `drop=0.01@to`, `late=0.25:0.9@01`, `silent=1@02`. A fault with `@` replaces the same fault without it.
     * The file of `--eeprom` is created if it does not exist. If it does, the modules have the settings stored in it,
@@ -106,20 +103,18 @@ def simulate(  # noqa: PLR0913 - each of them is an option
     """
     from i7000.cli import simulation as simulating  # noqa: PLC0415 - what it needs may not be there
     from i7000.cli.faults import read_faults  # noqa: PLC0415
-    from i7000.cli.serving import read_place  # noqa: PLC0415
 
     printer = Printer()
     if control == "-" and view == "live":
         raise UsageError("--control - and the keys of --view live both read standard input: give one of them")
-    places = [read_place(scheme, text) for scheme, text in (("socket", tcp), ("rfc2217", rfc2217)) if text is not None]
     with simulating.held(eeprom):
         simulated = simulating.Simulation(
             simulating.read_modules(model, signal, seed=seed, memory=eeprom),
             read_faults(fault),
             seed,
             eeprom,
-            pty or not places,
-            tuple(places),
+            place.has_pty,
+            place.places(),
             view or ("live" if printer.out.is_terminal and control != "-" else "none"),
             control,
             recording,

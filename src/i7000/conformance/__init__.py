@@ -1,4 +1,4 @@
-"""Conformance: what is required of a module or a driver, and whether one does it; without I/O and without a clock.
+"""Conformance: what is required of a module or a driver, and whether it does it; without I/O and without a clock.
 
 A check is a statement of ``spec/checks`` and the steps of `checks` that test it. `Subject` is the module under test
 with its twin, the device model that has the same settings: it tells which answers are allowed. `run` carries out a plan

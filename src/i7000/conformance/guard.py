@@ -11,15 +11,17 @@ any frame needs to be completed.
 True
 """
 
+from collections.abc import Callable
+from functools import cache
 from typing import NamedTuple
 
 from attrs import field
 
 from i7000.arguments import as_bytes, check_type
 from i7000.conformance.guard_dcon import HEARD_AS, hazards_in_text
-from i7000.conformance.guard_rtu import begins_nothing, hazards_at, hazards_with_crc, is_frame
+from i7000.conformance.guard_rtu import begins_nothing, hazards_at, hazards_of_modules, hazards_with_crc, is_frame
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard, worst_of
-from i7000.device.uart import Uart, hear_at
+from i7000.device.uart import Uart, levels_of, receiver
 from i7000.errors import I7000Error, InvalidValueError, written
 from i7000.frozen import frozen
 from i7000.settings import BaudRate, CharacterFormat, LineSettings
@@ -122,17 +124,27 @@ class Guard:
         """Return the guard after a silence that ends every Modbus frame; text stays, for DCON has no timeout."""
         return Guard(self.allowed, rests=tuple([Rest(rest.text) for rest in self.rests]))
 
-    def _heard(self, wire: bytes, line: LineSettings) -> "list[tuple[frozenset[Hazard], int, Rest]]":
+    def _heard(self, wire: bytes, line: LineSettings) -> list[tuple[frozenset[Hazard], int, Rest]]:
         """Return the hazards at each line setting at which something is received, its place, and the new rest."""
-        sent = Uart.of(line)
+        uart, receivers = _ends(line)
+        levels = levels_of(wire, uart)
         found = []
-        for place, uart in enumerate(_UARTS):
+        for place, receive in enumerate(receivers):
             rest = self.rests[place]
-            if uart.sounds_like(sent):
-                found.append((*_lenient(rest, wire), place))
-            elif heard := hear_at(wire, sent, uart):
-                found.append((*_strict(rest, heard), place))
-        return [(hazards, place, rest) for hazards, rest, place in found]
+            if receive is None:
+                hazards, after = _lenient(rest, wire)
+                found.append((hazards, place, after))
+            elif heard := receive(levels):
+                hazards, after = _strict(rest, heard)
+                found.append((hazards, place, after))
+        return found
+
+
+@cache
+def _ends(line: LineSettings) -> tuple[Uart, tuple[Callable[[bytes], bytes] | None, ...]]:
+    """Return the host's end of the line, and what makes each other end receive; None if it receives what is sent."""
+    sent = Uart.of(line)
+    return sent, tuple([None if uart.sounds_like(sent) else receiver(sent, uart) for uart in _UARTS])
 
 
 def hazards_of(wire: bytes, line: LineSettings = LineSettings()) -> frozenset[Hazard]:  # noqa: B008 - frozen
@@ -168,7 +180,7 @@ def _lenient(rest: Rest, wire: bytes) -> tuple[frozenset[Hazard], Rest]:
 def _strict(rest: Rest, heard: bytes) -> tuple[frozenset[Hazard], Rest]:
     """Return what modules with other line settings could do, and what is unfinished then."""
     text, frame = rest.text + heard.translate(HEARD_AS), rest.frame + heard
-    found = hazards_with_crc(frame, len(rest.frame))
+    found = hazards_of_modules(frame, len(rest.frame))
     if b"\r" in text:
         found |= hazards_in_text(text[: text.rindex(b"\r") + 1])
     return found, _rest(text, frame, ())

@@ -19,7 +19,7 @@ from i7000.modbus import BROADCAST, SHORTEST_FRAME, Area
 from i7000.modbus.frame import crc_of
 from i7000.modbus.request import MODULE_SETTINGS
 
-__all__ = ["begins_nothing", "hazards_at", "hazards_with_crc", "is_frame"]
+__all__ = ["begins_nothing", "hazards_at", "hazards_of_modules", "hazards_with_crc", "is_frame"]
 
 Hazards = frozenset[Hazard]
 
@@ -128,6 +128,8 @@ def _function_of(frame: bytes) -> Function | None:
 
 
 _CODES = re.compile(rb"[\x01-\x06\x08\x0F\x10\x15-\x17\x46\x81-\x86\x88\x8F\x90\x95-\x97\xC6]")
+_OF_MODULES = re.compile(rb"[\x01\x05\x06\x0F\x10\x46]")
+"""The function codes of the requests of modules that change something, or can be more than an observation."""
 
 
 def begins_nothing(frame: bytes) -> bool:
@@ -169,11 +171,37 @@ def hazards_with_crc(heard: bytes, new: int) -> Hazards:
         function = _function_of(frame)
         if function is None or len(frame) < function.known:
             continue
-        lengths = function.lengths(frame) + ((len(frame),) if start >= new else ())
-        for length in lengths:
-            if new - start < length <= len(frame) and is_frame(frame[:length]) and length >= function.known + _CRC:
-                found |= function.hazards(frame)
-                if frame[0] == BROADCAST:
-                    found |= {Hazard.BROADCAST}
-                break
+        lengths = function.lengths(frame)
+        if start >= new:
+            lengths += (len(frame),)
+        found |= _hazards_of_frame(frame, function, [length for length in lengths if length > new - start])
     return found
+
+
+def hazards_of_modules(heard: bytes, new: int) -> Hazards:
+    """Return the hazards of the requests that a module would carry out, ending after the first `new` bytes."""
+    found = HARMLESS
+    for code in _OF_MODULES.finditer(heard, 1):
+        start = code.start() - 1
+        if start + _LONGEST_SHORT <= new and heard[start + 1] not in _LONG:
+            continue
+        frame = heard[start:]
+        function = _function_of(frame)
+        if function is not None:
+            lengths = function.lengths(frame)
+            found |= _hazards_of_frame(frame, function, [length for length in lengths if length > new - start])
+    return found
+
+
+_LONG = (0x0F, 0x10)
+_LONGEST_SHORT = 13
+"""The length of the longest request of other functions than `_LONG`: to set the communication settings."""
+
+
+def _hazards_of_frame(frame: bytes, function: Function, lengths: list[int]) -> Hazards:
+    """Return the hazards of a request with the right CRC and one of some lengths."""
+    for length in lengths:
+        if function.known + _CRC <= length <= len(frame) and is_frame(frame[:length]):
+            found = function.hazards(frame)
+            return found | {Hazard.BROADCAST} if frame[0] == BROADCAST else found
+    return HARMLESS

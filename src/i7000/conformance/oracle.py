@@ -18,12 +18,13 @@ from i7000.host.procedures import NOT_SETTINGS, Snapshot
 from i7000.host.procedures.settings import known_settings
 from i7000.message import Query, Response
 from i7000.modbus import Area, Kind, Register
-from i7000.models import Firmware, series
+from i7000.models import Firmware, Model, series
 from i7000.profile import Profile
 from i7000.readings import Reading, Status
 from i7000.settings import Protocol
+from i7000.type_codes import MIXED
 
-__all__ = ["Answer", "Twin", "difference", "eeprom_of"]
+__all__ = ["Answer", "Twin", "difference", "eeprom_of", "rows_of"]
 
 
 # --- the settings of a snapshot ---------------------------------------------------------------------------------------
@@ -40,8 +41,6 @@ _FIELDS = {
 }
 """The fields of `Eeprom` that are not named as the settings; 7018 modules keep all offsets in one of them."""
 _7018_SERIES = series("7018")
-_7019_SERIES = series("7019")
-"""The models whose disabled channels are blank for sure; the others may send anything there (E25)."""
 _OF_REPORTS = frozenset({"data_format", "filter", "fast_mode", "checksum"})
 _OF_LINE = frozenset({"baud_rate", "character_format"})
 _DATES = ("year", "month", "date", "hour", "minute", "second")
@@ -165,6 +164,8 @@ def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: 
 
 # --- DCON -------------------------------------------------------------------------------------------------------------
 
+_BLANK = series("7019")
+"""The models whose disabled channels are blanks (E25)."""
 _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon.CjcUpdateSetting)
 """The responses that depend on what the module measures or remembers since its power-on."""
 
@@ -183,6 +184,7 @@ def _dcon_difference(answer: Answer, response: Response, expected: Response) -> 
 
 
 def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int]) -> str | None:
+    """Compare readings by their shape; what a disabled channel has is known of the fields of few models only (E25)."""
     if answer.profile.type_codes:
         try:
             readings = read()
@@ -191,8 +193,10 @@ def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], 
         for channel, reading in zip(channels, readings, strict=True):
             disabled = not answer.enabled >> channel & 1
             blank = reading.status is Status.DISABLED
-            if disabled is not blank and (blank or answer.profile.model in _7019_SERIES):
-                return f"channel {channel} is {'disabled, but not' if disabled else 'enabled, but'} blank"
+            if disabled and not blank and answer.profile.model in _BLANK:
+                return f"channel {channel} is disabled, but not blank"
+            if blank and not disabled:
+                return f"channel {channel} is enabled, but blank"
     return None
 
 
@@ -209,46 +213,84 @@ def _fields_difference(response: Response, expected: Response) -> str:
 _REMEMBERED = frozenset(NOT_SETTINGS) | {
     "range_status",
     "cjc_temperature",
+    "temperature",
     "reset_status",
     "log_last_index",
     "log_status",
+    "firmware_version",
 }
-"""The rows that depend on what the module measures or remembers."""
+"""The rows that depend on what the module measures or remembers, and those whose content is open (E75)."""
+_ANY_OF_ITS_FIELDS = (modbus.CjcUpdateSetting, modbus.FirmwareVersion)
+"""The responses of function 46h that are not known from the settings, or whose bytes are open (E75)."""
 
 
 def _modbus_difference(answer: Answer, response: Any, expected: Any) -> str | None:  # noqa: ANN401 - of any request
     query: Any = answer.query
+    if isinstance(response, _ANY_OF_ITS_FIELDS):
+        return None
+    if isinstance(response, modbus.ChannelMask):
+        same = _swapped(response.mask, answer.profile) == expected.mask
+        return None if same else _fields_difference(response, expected)
     if response.area is None or query.first_item is None or not hasattr(response, "values"):
         return _fields_difference(response, expected)
-    for at, (value, right) in enumerate(zip(response.values, expected.values, strict=False)):
-        place = _place(answer.profile, response.area, query.first_item + at)
+    places = _places(answer.profile.model, _firmware(answer.profile))[response.area]
+    for at, (value, right) in enumerate(zip(response.values, expected.values, strict=True)):
+        place = None if value == right else places.get(query.first_item + at)
         if place is None:
             continue
         row, item = place
-        if row.kind in (Kind.READING, Kind.RECORD) or row.name in _REMEMBERED:
-            found = _item_difference(answer, row, item, value)
-        else:
-            found = None if value == right else f"{row.name} is {value} where {right} is right"
+        found = _item_difference(answer, row, value, right)
         if found:
             return f"{row.area.value}{row.address + item + 1:04d}: {found}"
     return None
 
 
-def _place(profile: Profile, area: Area, address: int) -> tuple[Register, int] | None:
-    for row in _rows(evolve(profile, type_codes=())):
-        if row.area is area and row.address <= address < row.address + row.count:
-            return row, address - row.address
-    return None
+def _swapped(mask: int, profile: Profile) -> int:
+    """Return a mask of several bytes with their order reversed, which is open (E61)."""
+    return int.from_bytes(mask.to_bytes(profile.mask_digits // 2, "big"), "little")
+
+
+def _firmware(profile: Profile) -> str | None:
+    return None if profile.firmware is None else profile.firmware.text
+
+
+def rows_of(profile: Profile) -> tuple[Register, ...]:
+    """Return the rows of the address map of a module."""
+    return _rows_of(evolve(profile, type_codes=()))
 
 
 @lru_cache(maxsize=64)
-def _rows(profile: Profile) -> tuple[Register, ...]:
+def _rows_of(profile: Profile) -> tuple[Register, ...]:
     return tuple(modbus.RegisterMap(profile))
 
 
-def _item_difference(answer: Answer, row: Register, item: int, value: int) -> str | None:
-    if row.kind is Kind.READING and answer.profile.type_codes:
-        return _readings_difference(answer, lambda: modbus.readings((value,), answer.profile, channel=item), (item,))
+@lru_cache(maxsize=64)
+def _places(model: Model, firmware: str | None) -> Mapping[Area, Mapping[int, tuple[Register, int]]]:
+    """Return the row of each address of a map, and the place of the item in its row."""
+    profile = Profile(model, firmware=None if firmware is None else Firmware(firmware), type_codes=())
+    found: dict[Area, dict[int, tuple[Register, int]]] = {area: {} for area in Area}
+    for row in rows_of(profile):
+        found[row.area] |= {row.address + at: (row, at) for at in range(row.count)}
+    return found
+
+
+def _item_difference(answer: Answer, row: Register, value: int, right: int) -> str | None:
+    """Return what is wrong with an item that is not the one of the twin."""
+    name = answer.profile.model.modbus_name
+    if (
+        row.kind is Kind.READING
+        or (
+            row.name == "module_name" and value.to_bytes(2, "big") in (name[:2], name[2:])
+        )  # in which order, is open (E75)
+        or (row.name == "module_type_code" and right == MIXED)  # E81
+        or (
+            row.name == "channel_mask" and answer.profile.model is Model.M_7018_16 and not (value ^ right) & 0xFF
+        )  # E12
+        or (row.kind is Kind.INT8 and not (value ^ right) & 0xFF)  # the high byte is open (E62)
+    ):
+        return None
+    if row.kind is not Kind.RECORD and row.name not in _REMEMBERED:
+        return f"{row.name} is {value} where {right} is right"
     number = value - 0x10000 if row.kind is Kind.INT16 and value > 0x7FFF else value
     if row.minimum is not None and row.maximum is not None and not row.minimum <= number <= row.maximum:
         return f"{row.name} is {number}, beyond {row.minimum}..{row.maximum}"

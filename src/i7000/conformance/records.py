@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from typing import Any
 
-from i7000 import spec
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.run import CheckResult
 from i7000.conformance.settle import Settled
@@ -22,9 +21,9 @@ __all__ = [
     "MANUAL",
     "SCHEMA_VERSION",
     "Digest",
+    "as_line",
     "check_record",
     "end_record",
-    "spec_digest",
     "start_record",
     "wire_record",
 ]
@@ -38,28 +37,10 @@ Record = dict[str, Any]
 _json = json.JSONEncoder(ensure_ascii=True, allow_nan=False).encode
 
 
-def spec_digest() -> str:
-    """Return the SHA-256 of all files of ``spec/``, each with its name before it."""
-    digest = sha256()
-    left = [("", spec.files())]
-    files = []
-    while left:
-        path, folder = left.pop()
-        for entry in folder.iterdir():
-            name = f"{path}/{entry.name}" if path else entry.name
-            if entry.is_dir():
-                left.append((name, entry))
-            elif name.endswith((".json", ".md")):
-                files.append((name, entry))
-    for name, file in sorted(files, key=lambda it: it[0]):
-        digest.update(f"{name}\n".encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
-
-
 def start_record(  # noqa: PLR0913 - each of them is a fact
     *,
     version: str,
+    spec_sha256: str,
     time: str,
     target: str,
     seed: int,
@@ -77,7 +58,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "record": "run-start",
         "schema_version": SCHEMA_VERSION,
         "version": version,
-        "spec_sha256": spec_digest(),
+        "spec_sha256": spec_sha256,
         "manual": MANUAL,
         "time": time,
         "target": target,
@@ -153,6 +134,11 @@ def end_record(
     }
 
 
+def as_line(record: Mapping[str, Any]) -> str:
+    """Return a record as a line, without its end."""
+    return _json(record)
+
+
 class Digest:
     """The lines of a report with their SHA-256, as they are written."""
 
@@ -161,10 +147,10 @@ class Digest:
 
     def line(self, record: Mapping[str, Any]) -> str:
         """Return a record as a line, without its end."""
-        text = _json(record)
+        text = as_line(record)
         self._digest.update(text.encode() + b"\n")
         return text
 
     def last(self, record: Mapping[str, Any]) -> str:
         """Return the last record as a line with the digest of the lines before it."""
-        return _json({**record, "digest": self._digest.hexdigest()})
+        return as_line({**record, "digest": self._digest.hexdigest()})

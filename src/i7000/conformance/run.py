@@ -18,7 +18,7 @@ from i7000.conformance.checks import STEPS
 from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
-from i7000.conformance.statement import Level, Statement, statements
+from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Difference, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom
@@ -92,16 +92,16 @@ class CheckResult:
 # --- the plan ---------------------------------------------------------------------------------------------------------
 
 
-def selected(selection: Iterable[str]) -> frozenset[str]:
+def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> frozenset[str]:
     """Return the ids that texts select: ids, beginnings of them, patterns with ``*``, and sections of the manual.
 
     Special: no text selects everything. What a selected check needs, and its negative half, are selected too.
     Errors: `InvalidValueError` for a text that selects nothing; it names the nearest id.
 
-    >>> sorted(selected(["link"]))[0]
+    >>> from i7000 import spec
+    >>> sorted(selected(spec.statements(), ["link"]))[0]
     'link/alive'
     """
-    known = statements()
     texts = tuple(selection)
     found = set() if texts else set(known)
     for text in texts:
@@ -137,10 +137,11 @@ def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
     return found
 
 
-def plan(ids: Iterable[str], profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]) -> tuple[Planned, ...]:
+def plan(
+    statements: Iterable[Statement], profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]
+) -> tuple[Planned, ...]:
     """Return the checks of a run in their order, for a module of a profile."""
-    wanted = frozenset(ids)
-    return tuple(Planned(it, _skip(it, profile, protocol, allowed)) for it in statements().values() if it.id in wanted)
+    return tuple(Planned(it, _skip(it, profile, protocol, allowed)) for it in statements)
 
 
 def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]) -> Skipped | None:

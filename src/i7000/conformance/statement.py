@@ -1,7 +1,6 @@
 """The statements of ``spec/checks``: what is required, of which modules, and how dangerous it is to test."""
 
-import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import cache
 from types import MappingProxyType
@@ -9,7 +8,7 @@ from typing import Any
 
 from attrs import evolve
 
-from i7000 import dcon, modbus, spec
+from i7000 import dcon, modbus
 from i7000.conformance.hazard import Hazard
 from i7000.frozen import frozen
 from i7000.message import Message
@@ -17,7 +16,7 @@ from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
 
-__all__ = ["GROUPS", "Level", "Statement", "statements"]
+__all__ = ["GROUPS", "Level", "Statement", "read_statements"]
 
 GROUPS = ("link", "frame", "dcon", "values", "consistency", "rtu", "map", "timing", "stateful", "init")
 """The groups in the order of a run: the files of ``spec/checks`` and the modules of `i7000.conformance.checks`."""
@@ -116,13 +115,10 @@ def _statement(row: Mapping[str, Any]) -> Statement:
     )
 
 
-@cache
-def statements() -> Mapping[str, Statement]:
-    """Return the statements by their ids, in the order of the files and rows."""
-    found = {}
-    folder = spec.files().joinpath("checks")
-    for group in GROUPS:
-        for row in json.loads(folder.joinpath(f"{group}.json").read_text("utf-8"))["rows"]:
-            statement = _statement(row)
-            found[statement.id] = statement
-    return MappingProxyType(found)
+def read_statements(documents: Iterable[Mapping[str, Any]]) -> Mapping[str, Statement]:
+    """Return the statements in the files of ``spec/checks`` by their ids, in the order of the files and rows.
+
+    Special: `i7000.spec.statements` reads the files.
+    """
+    found = [_statement(row) for document in documents for row in document["rows"]]
+    return MappingProxyType({statement.id: statement for statement in found})

@@ -4,7 +4,9 @@ Laws: an end with the same settings receives what was sent. Another end receives
 line at its own speed. It drops characters with a wrong parity or stop bit.
 """
 
-from itertools import pairwise
+import re
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 
 from attrs import field
 
@@ -83,57 +85,96 @@ class Uart:
 def hear_at(data: bytes, sent: Uart, heard: Uart) -> bytes:
     r"""Return what an end with settings `heard` receives if one with settings `sent` sends characters without a pause.
 
+    Special: a receiver samples each bit in its middle, counted from the edge of the start bit. What begins at the
+        moment of a sample counts.
+
     >>> hear_at(b"$012\r", Uart(9600), Uart(9600, stop_bits=2)), hear_at(b"$012\r", Uart(9600), Uart(19200))
     (b'$012\r', b'\x98\xe0\xe6\x80')
     """
-    if sent.sounds_like(heard):
-        return data
-    levels = _levels(data, sent)
-    falls = [at for (level, _), (lower, at) in pairwise(levels) if level > lower]
-    return _sampled(levels, falls, heard)
+    return data if sent.sounds_like(heard) else receiver(sent, heard)(levels_of(data, sent))
 
 
-Levels = list[tuple[int, float]]
-"""The levels of a line, each with the time when it starts."""
+@lru_cache(maxsize=16)
+def levels_of(data: bytes, uart: Uart) -> bytes:
+    """Return the levels of a line on which one end sends characters without a pause, for `receiver`.
+
+    Shape: one byte, 0 or 1, for each step of `_steps_of`, after a silence of one step.
+    """
+    characters = _characters(uart)
+    return b"\1" + b"".join([characters[byte] for byte in data])
 
 
-def _levels(data: bytes, uart: Uart) -> Levels:
-    levels: Levels = [(1, 0.0)]
-    at = 1 / uart.rate
-    for byte in data:
+def _steps_of(uart: Uart) -> int:
+    """Return how many levels one bit has: two if stop bits are not whole bits."""
+    return 2 if uart.stop_bits == 1.5 else 1
+
+
+@lru_cache(maxsize=64)
+def _characters(uart: Uart) -> tuple[bytes, ...]:
+    """Return the levels of each character."""
+    steps, found = _steps_of(uart), []
+    for byte in range(0x100):
         value = byte & (1 << uart.data_bits) - 1
         bits = [0, *(value >> bit & 1 for bit in range(uart.data_bits))]
         if uart.parity != "N":
             bits.append(uart.parity_bit(value))
-        for bit in bits:
-            levels.append((bit, at))
-            at += 1 / uart.rate
-        levels.append((1, at))
-        at += uart.stop_bits / uart.rate
-    return levels
+        found.append(bytes(bit for bit in bits for _ in range(steps)) + b"\1" * round(uart.stop_bits * steps))
+    return tuple(found)
 
 
-def _sampled(levels: Levels, falls: list[float], uart: Uart) -> bytes:
-    """Sample each character in the middle of its bits, counted from the edge of its start bit."""
-    heard = bytearray()
-    free_at = 0.0
-    place = 0
+@lru_cache(maxsize=1024)
+def receiver(sent: Uart, heard: Uart) -> Callable[[bytes], bytes]:
+    """Return the function that makes what an end with settings `heard` receives from the `levels_of` another end."""
+    rate = sent.rate * _steps_of(sent)
+    count = heard.data_bits + 2 + (heard.parity != "N")
+    samples = [(2 * bit + 1) * rate // (2 * heard.rate) for bit in range(count)]
+    length = -((1 - 2 * count) * rate // (2 * heard.rate))
 
-    def level(time: float) -> int:
-        nonlocal place
-        while place + 1 < len(levels) and levels[place + 1][1] <= time:
-            place += 1
-        return levels[place][0]
+    @lru_cache(maxsize=8192)
+    def character(levels: bytes) -> int | None:
+        size = len(levels)
+        _, *bits = [at >= size or levels[at] for at in samples]
+        value = sum(bit << at for at, bit in enumerate(bits[: heard.data_bits]))
+        right = bits[-1] and (heard.parity == "N" or bits[-2] == heard.parity_bit(value))
+        return value if right else None
 
-    for fall in falls:
-        if fall < free_at:
-            continue
-        times = [fall + (bit + 0.5) / uart.rate for bit in range(uart.data_bits + 2 + (uart.parity != "N"))]
-        start, *bits = map(level, times)
-        if start:
-            continue
-        free_at = times[-1]
-        value = sum(bit << at for at, bit in enumerate(bits[: uart.data_bits]))
-        if bits[-1] and (uart.parity == "N" or bits[-2] == uart.parity_bit(value)):
-            heard.append(value)
-    return bytes(heard)
+    found = _finder(samples[0], samples[-1] + 1, length)
+
+    def receive(levels: bytes) -> bytes:
+        return bytes([value for value in map(character, found(levels)) if value is not None])
+
+    return receive
+
+
+def _finder(start_bit: int, width: int, length: int) -> Callable[[bytes], Iterable[bytes]]:
+    """Return the function that finds the characters on a line, as the `width` levels from the edge of the start bit on.
+
+    Shape: a character whose level is high again at `start_bit` is a spike; the next can begin at its next edge. After
+        others, the next can begin `length` levels later.
+    """
+    if width > _WIDEST:
+        return lambda levels: _found_slowly(levels, start_bit, width, length)
+    spike = f"(?=\0.{{{start_bit - 1}}}(?:\1|$))|(?=\0.{{,{start_bit - 1}}}$)|" if start_bit else ""
+    after = f".{{,{length - 2}}}" if length > 1 else ""
+    pattern = re.compile(f"\1(?:{spike}(?=(\0.{{,{width - 1}}}))\0{after})".encode(), re.DOTALL)
+
+    def found(levels: bytes) -> Iterable[bytes]:
+        return filter(None, pattern.findall(levels))
+
+    return found
+
+
+_WIDEST = 1000
+"""The widest character that is found by a pattern."""
+
+
+def _found_slowly(levels: bytes, start_bit: int, width: int, length: int) -> Iterator[bytes]:
+    start = levels.find(_FALL) + 1
+    while start:
+        spike = start + start_bit >= len(levels) or levels[start + start_bit]
+        if not spike:
+            yield levels[start : start + width]
+        start = levels.find(_FALL, start if spike else start + length - 1) + 1
+
+
+_FALL = b"\1\0"

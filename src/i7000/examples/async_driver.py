@@ -17,11 +17,11 @@ __all__ = ["main"]
 
 async def _main(task: Task) -> int:
     async with await AsyncLine.open(task.target, task.line, echo=task.echo) as line:
-        return task.show(await line.run(ask(task.command, task.profile)))
+        return max([task.show(command, await line.run(ask(command, task.profile))) for command in task.requests()])
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Read the inputs of a module."""
+    """Read the inputs of modules."""
     task = read_task(arguments)
     with failures_reported():
         return asyncio.run(_main(task))

@@ -15,10 +15,10 @@ __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Read the inputs of a module."""
+    """Read the inputs of modules."""
     task = read_task(arguments)
     with failures_reported(), Line.open(task.target, task.line, echo=task.echo) as line:
-        return task.show(line.run(ask(task.command, task.profile)))
+        return max(task.show(command, line.run(ask(command, task.profile))) for command in task.requests())
 
 
 if __name__ == "__main__":

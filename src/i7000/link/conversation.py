@@ -123,8 +123,9 @@ class Conversation:
         end = self.clock()
         for pause, wire in step.pieces:
             yield from self._listen(max(end, self.clock()) + pause, heard)
-            yield Write(wire)
-            self._show(Written(self.clock(), wire))
+            if wire:
+                yield Write(wire)
+                self._show(Written(self.clock(), wire))
             end = max(end, self.clock()) + len(wire) * self.bus.character_time
         yield from self._listen(end + step.seconds, heard, step)
         pieces = _without_echo(heard, b"".join(wire for _, wire in step.pieces)) if self.bus.echo else heard

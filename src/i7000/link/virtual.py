@@ -22,6 +22,7 @@ from i7000.errors import InvalidValueError, Noise, StateError
 from i7000.models import Model
 from i7000.settings import LineSettings, Protocol
 from i7000.simulator.faults import Exchange, Faults
+from i7000.simulator.observed import Observed
 from i7000.simulator.simulator import Simulated
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources, default_sources
 
@@ -97,6 +98,8 @@ class VirtualPort(serial.SerialBase):
         self.init_switches = [isinstance(it, Simulated) and it.init_switch for it in given]
         """The INIT switch of each module, which it reads when its power is switched on."""
         self.faults = faults or Faults()
+        self.observe: Callable[[Observed], object] | None = None
+        """It is called with each request that a module answers, and the response."""
         self._chance = Random(seed)  # noqa: S311 - repeatable
         self._bus = Bus(states)
         self._began = self._now = max((0.0, *(it.clock for it in states)))
@@ -354,8 +357,13 @@ class VirtualPort(serial.SerialBase):
             exchange = self._exchange(heard.frame, heard.answer, heard)
             faults, character_time = self.faults.answers(exchange.address), self._uart.character_time
             start = self._now + heard.delay + (silence if heard.protocol is Protocol.MODBUS_RTU else 0.0)
-            for piece in faults.delivered(heard.answer, character_time, self._chance, exchange).pieces:
+            transfer = faults.delivered(heard.answer, character_time, self._chance, exchange)
+            for piece in transfer.pieces:
                 heappush(self._pieces, (start + piece.after, next(self._order), piece.wire, faults.lumps))
+            if self.observe:
+                seen = Observed(self._now, "", heard.frame, heard.protocol, heard.profile, heard.answer)
+                pieces = tuple(evolve(it, after=start - self._now + it.after) for it in transfer.pieces)
+                self.observe(evolve(seen, faults=transfer.faults, pieces=pieces))
 
     def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
         """Return the exchange of an answer, and remember the answer."""

@@ -35,18 +35,18 @@ class Deliveries:
         """Return whether a response is delayed."""
         return bool(self._later)
 
-    def send(self, transfer: Transfer, delay: float = 0.0) -> tuple[str, ...]:
-        """Send a response after a delay in seconds, and return its faults."""
-        late = [piece for piece in transfer.pieces if delay + piece.after]
+    def send(self, transfer: Transfer) -> Transfer:
+        """Send a response, and return what is sent of it: nothing if too much is delayed."""
+        late = [piece for piece in transfer.pieces if piece.after]
         if late and not self._has_room(late):
             self._notice(LOST)
-            return *transfer.faults, LOST
+            return Transfer((), (*transfer.faults, LOST))
         for piece in transfer.pieces:
-            if delay + piece.after:
-                self._send_later(delay + piece.after, piece.wire)
+            if piece.after:
+                self._send_later(piece.after, piece.wire)
             else:
                 self._write(piece.wire)
-        return transfer.faults
+        return transfer
 
     def close(self) -> None:
         """Drop what is delayed."""

@@ -121,10 +121,24 @@ class Faults:
     """The probability that the response to the last different request of the host replaces a response."""
     misaddress: float = 0.0
     """The probability that a response has the address of another module; a DCON response with ``>`` has no address."""
+    misfunction: float = 0.0
+    """The probability that a response is one to another command: with another function code and a good CRC, or in DCON
+    with ``!`` and the address in place of ``>``, and the other way round.
+    """
+    corrupt: float = 0.0
+    """The probability that one bit of a response is flipped, wherever it is."""
+    lookalike: float = 0.0
+    """The probability that a frame precedes a response which looks like it but is shorter, with a good checksum or CRC.
+    """
+    trailing: float = 0.0
+    """The probability that a byte 00 follows a response; a CRC stays good when it is included."""
     truncate: float = 0.0
     """The probability that a response ends early."""
     duplicate: float = 0.0
     """The probability that a response arrives twice."""
+    split: float = 0.0
+    """The probability that a response arrives in two pieces, with a pause between them."""
+    split_by: float = 0.05
     scoped: tuple[Scoped, ...] = ()
     """The values in one direction or for one address, from `at`."""
 
@@ -189,17 +203,17 @@ class Faults:
         if _happens(self.silent, chance):
             return Transfer((), ("the answer is lost",))
         wire, other = (answer, ()) if exchange is None else self._replaced(answer, exchange, chance)
-        if _happens(self.truncate, chance) and len(wire) > 1:
-            wire = wire[: chance.randrange(1, len(wire))]
-            other = (*other, f"cut after {len(wire)} bytes")
-        if _happens(self.duplicate, chance):
-            wire, other = wire * 2, (*other, "sent twice")
+        wire, changed = self._changed(wire, exchange, chance)
         wire, damage = self.carried(wire, chance)
-        happened = other + damage
+        happened = other + changed + damage
         after = 0.0
         if _happens(self.late, chance):
             after = self.late_by
             happened = (*happened, f"late by {after:g} s")
+        if _happens(self.split, chance) and len(wire) > 1:
+            place = chance.randrange(1, len(wire))
+            pieces = [Piece(wire[:place], after), Piece(wire[place:], after + self.split_by)]
+            return Transfer(tuple(pieces), (*happened, f"split after {place} bytes for {self.split_by:g} s"))
         if not self.lumps:
             return Transfer((Piece(wire, after),), happened)
         size = max(1, int(_LUMP_TIME / character_time))
@@ -207,6 +221,27 @@ class Faults:
             Piece(wire[at : at + size], after + _LUMP_TIME * (1 + at // size)) for at in range(0, len(wire), size)
         ]
         return Transfer(tuple(pieces), (*happened, f"in {len(pieces)} lumps"))
+
+    def _changed(self, wire: bytes, exchange: Exchange | None, chance: Random) -> tuple[bytes, tuple[str, ...]]:
+        """Return the bytes of a response with what is wrong with them, and the faults in words."""
+        happened: list[str] = []
+        if _happens(self.corrupt, chance) and wire:
+            bit = chance.randrange(8 * len(wire))
+            wire = wire[: bit // 8] + bytes((wire[bit // 8] ^ 1 << bit % 8,)) + wire[bit // 8 + 1 :]
+            happened.append(f"bit {bit % 8} of byte {bit // 8} flipped")
+        if _happens(self.truncate, chance) and len(wire) > 1:
+            wire = wire[: chance.randrange(1, len(wire))]
+            happened.append(f"cut after {len(wire)} bytes")
+        if _happens(self.duplicate, chance):
+            wire *= 2
+            happened.append("sent twice")
+        if _happens(self.lookalike, chance) and exchange is not None and (other := _lookalike(wire, exchange)):
+            wire = other + wire
+            happened.append(f"a frame of {len(other)} bytes that looks like it before")
+        if _happens(self.trailing, chance):
+            wire += b"\0"
+            happened.append("00 after it")
+        return wire, tuple(happened)
 
     def _replaced(self, answer: bytes, exchange: Exchange, chance: Random) -> tuple[bytes, tuple[str, ...]]:
         """Return the response that arrives in place of another one, and why."""
@@ -216,6 +251,8 @@ class Faults:
             return exchange.earlier, ("an earlier answer",)
         if _happens(self.misaddress, chance) and (misaddressed := _misaddressed(answer, exchange)):
             return misaddressed
+        if _happens(self.misfunction, chance) and (misread := _misfunction(answer, exchange)):
+            return misread
         return answer, ()
 
 
@@ -230,7 +267,7 @@ def _check(name: str, value: object) -> None:
     elif name == "refuse_code":
         allowed, valid = "1..255", is_int(value, 1, 0xFF)
     else:
-        most = 60.0 if name == "late_by" else 1.0
+        most = 60.0 if name in ("late_by", "split_by") else 1.0
         allowed, valid = f"0..{most:g}", isinstance(value, int | float) and 0 <= value <= most
     if not valid:
         raise InvalidValueError(name, value, allowed, "")
@@ -273,3 +310,41 @@ def _misaddressed(answer: bytes, exchange: Exchange) -> tuple[bytes, tuple[str, 
         return None
     body = answer[:1] + b"%02X" % other + answer[3 : -3 if exchange.checksum else -1]
     return dcon.seal(body, checksum=exchange.checksum), words
+
+
+_PAIRS = {1: 2, 3: 4, 5: 6, 15: 16}
+_OTHER_FUNCTIONS = _PAIRS | {other: function for function, other in _PAIRS.items()}
+"""Functions whose responses have the same shape."""
+_NO_SUCH_FUNCTION = 0x47
+
+
+def _misfunction(answer: bytes, exchange: Exchange) -> tuple[bytes, tuple[str, ...]] | None:
+    """Return the response as one to another command; None if it is neither."""
+    address = exchange.address
+    if exchange.protocol is Protocol.MODBUS_RTU:
+        if len(answer) < _SHORTEST_RTU:
+            return None
+        other = _OTHER_FUNCTIONS.get(answer[1], _NO_SUCH_FUNCTION)
+        return modbus.seal(bytes((answer[0], other)) + answer[2:-2]), (f"with function {other:02X}",)
+    body = answer[: -3 if exchange.checksum else -1]
+    if body[:1] == b">" and address is not None:
+        other_body = b"!%02X" % address + body[1:]
+    elif body[:1] == b"!" and len(body) > 3:
+        other_body = b">" + body[3:]
+    else:
+        return None
+    words = f"with {other_body[:1].decode()} in place of {body[:1].decode()}"
+    return dcon.seal(other_body, checksum=exchange.checksum), (words,)
+
+
+_SHORTEST_RTU = 5
+"""The length of the shortest response of Modbus RTU: an exception."""
+
+
+def _lookalike(wire: bytes, exchange: Exchange) -> bytes | None:
+    """Return a good frame that is a byte or a register shorter than a response; None if there is no shorter one."""
+    if exchange.protocol is Protocol.MODBUS_RTU:
+        count = wire[2] - 2 if len(wire) > _SHORTEST_RTU + 2 else 0
+        return modbus.seal(wire[:2] + bytes((count,)) + wire[3 : 3 + count]) if count > 0 else None
+    body = wire[: -3 if exchange.checksum else -1]
+    return dcon.seal(body[:-1], checksum=exchange.checksum) if len(body) > 3 else None

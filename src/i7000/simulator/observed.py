@@ -6,6 +6,7 @@ from i7000.errors import Noise
 from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
+from i7000.simulator.faults import Piece
 
 __all__ = ["Change", "Observed"]
 
@@ -30,6 +31,8 @@ class Observed:
     """The faults of the line."""
     deaf: Profile | None = None
     """The profile of a module that cannot understand it because it uses the other protocol."""
+    pieces: tuple[Piece, ...] = ()
+    """What arrives of the response, with the delay of the module and of the line."""
 
 
 @frozen

@@ -210,8 +210,8 @@ class ProxyHost:
         exchange = self._exchange(answer)
         faults = proxy.faults.answers(None if exchange is None else exchange.address)
         transfer = faults.delivered(answer, proxy.uart.character_time, proxy.chance, exchange)
-        happened = self._deliveries.send(transfer)
-        proxy.carried(b"".join(piece.wire for piece in transfer.pieces), self.name, happened, sent=False)
+        sent = self._deliveries.send(transfer)
+        proxy.carried(b"".join(piece.wire for piece in transfer.pieces), self.name, sent.faults, sent=False)
 
     def _exchange(self, answer: bytes) -> Exchange | None:
         """Return the exchange of an answer, and remember the answer; None if the request is not a frame."""

@@ -17,7 +17,7 @@ from i7000.device import Bus, Ear, Eeprom, Heard, Signals, State, Uart, advance,
 from i7000.errors import I7000Error, Noise
 from i7000.simulator.changes import changes
 from i7000.simulator.deliveries import Deliveries
-from i7000.simulator.faults import Exchange, Faults
+from i7000.simulator.faults import Exchange, Faults, Piece, Transfer
 from i7000.simulator.foreign import LONGEST, deaf_module, foreign_frames
 from i7000.simulator.observed import Change, Observed
 from i7000.simulator.sources import SAMPLES_A_SECOND, Sources
@@ -180,12 +180,13 @@ class Simulator:
             for change in reported:
                 self.watch(change)
 
-    def observed(self, client: str, heard: Heard, faults: tuple[str, ...]) -> None:
+    def observed(self, client: str, heard: Heard, faults: tuple[str, ...], pieces: tuple[Piece, ...] = ()) -> None:
         """Report what modules heard, and their answer, to the observer of the line."""
         if self.observe:
             at = self.now - self.began
             deaf = deaf_module(self.bus.modules, heard)
-            self.observe(Observed(at, client, heard.frame, heard.protocol, heard.profile, heard.answer, faults, deaf))
+            frame, protocol, profile, answer = heard.frame, heard.protocol, heard.profile, heard.answer
+            self.observe(Observed(at, client, frame, protocol, profile, answer, faults, deaf, pieces))
 
     def notice(self, text: str) -> None:
         """Count a notice, and report it the first time."""
@@ -301,8 +302,8 @@ class Host:
                 self._noises.append((heard, faults))
                 continue
             self._report_noises()
-            happened = faults if heard.answer is None else (*faults, *self._answer(heard.frame, heard.answer, heard))
-            self.simulator.observed(self.name, heard, happened)
+            transfer = Transfer(()) if heard.answer is None else self._answer(heard.frame, heard.answer, heard)
+            self.simulator.observed(self.name, heard, (*faults, *transfer.faults), transfer.pieces)
         self.simulator.report_changes()
         self._stop_waiting()
         if ear.waiting or self._noises:
@@ -320,13 +321,14 @@ class Host:
             self._silence.cancel()
             self._silence = None
 
-    def _answer(self, request: bytes, answer: bytes, heard: Heard) -> tuple[str, ...]:
-        """Send a response, and return its faults."""
+    def _answer(self, request: bytes, answer: bytes, heard: Heard) -> Transfer:
+        """Send a response, and return what arrives of it, with the delay of the module."""
         character_time = (self.uart or Uart()).character_time
         exchange = self._exchange(request, answer, heard)
         faults = self.simulator.faults.answers(exchange.address)
         transfer = faults.delivered(answer, character_time, self.simulator.chance, exchange)
-        return self._deliveries.send(transfer, heard.delay)
+        pieces = tuple([Piece(piece.wire, piece.after + heard.delay) for piece in transfer.pieces])
+        return self._deliveries.send(Transfer(pieces, transfer.faults))
 
     def _exchange(self, request: bytes, answer: bytes, heard: Heard) -> Exchange:
         """Return the exchange of an answer, and remember the answer."""

@@ -1,18 +1,26 @@
-"""The installed folder ``spec/``: tables, vectors, stories, errata and schemas, as JSON files.
+"""The installed folder ``spec/``: tables, vectors, stories, checks, errata and schemas, as JSON files.
 
 In a wheel, the files are in this package. In a checkout or an editable install, they are in its ``spec/``. `files`
 returns the folder in both cases. Its ``README.md`` explains the files.
 """
 
+import json
+from collections.abc import Iterator, Mapping
+from functools import cache
+from hashlib import sha256
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-__all__ = ["files"]
+if TYPE_CHECKING:
+    from i7000.conformance.statement import Statement
+
+__all__ = ["digest", "files", "statements"]
 
 
 def files() -> Traversable:
-    """Return the folder with ``README.md``, ``errata.json``, ``schema``, ``stories``, ``tables`` and ``vectors``.
+    """Return the folder with the README, the errata, and the folders of checks, schemas, stories, tables and vectors.
 
     >>> import json
     >>> commands = json.loads(files().joinpath("tables", "dcon_commands.json").read_text("utf-8"))
@@ -21,3 +29,31 @@ def files() -> Traversable:
     """
     packaged = resources.files(__name__)
     return packaged if packaged.joinpath("errata.json").is_file() else Path(__file__).parents[3] / "spec"
+
+
+@cache
+def statements() -> "Mapping[str, Statement]":
+    """Return the statements of ``spec/checks`` by their ids, in the order of a run."""
+    from i7000.conformance.statement import GROUPS, read_statements  # noqa: PLC0415 - the files alone need none of it
+
+    folder = files().joinpath("checks")
+    return read_statements(json.loads(folder.joinpath(f"{group}.json").read_text("utf-8")) for group in GROUPS)
+
+
+@cache
+def digest() -> str:
+    """Return the SHA-256 of all files of ``spec/``, each with its name before it."""
+    found = sha256()
+    for name, file in sorted(_files("", files()), key=lambda it: it[0]):
+        found.update(f"{name}\n".encode())
+        found.update(file.read_bytes())
+    return found.hexdigest()
+
+
+def _files(path: str, folder: Traversable) -> Iterator[tuple[str, Traversable]]:
+    """Yield the data files under a folder, with their paths."""
+    for entry in folder.iterdir():
+        if entry.is_dir():
+            yield from _files(f"{path}{entry.name}/", entry)
+        elif entry.name.endswith((".json", ".md")):
+            yield f"{path}{entry.name}", entry

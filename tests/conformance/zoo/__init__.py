@@ -1,0 +1,5 @@
+"""The zoo: firmware with one seeded bug each, which the checks have to catch.
+
+``python -m tests.conformance.zoo NAME`` plays one on standard input and output: a target for ``exec:``. Without a name
+it lists them.
+"""
