@@ -139,9 +139,7 @@ def _sampled(module: Subject) -> Procedure[None]:
     def sampled() -> Procedure[Asked]:
         wire = module.wire(dcon.SynchronizedSampling())
         yield from module.send(wire, seconds=0.05)
-        command = dcon.ReadSynchronizedData(module.address)
-        response, heard = yield from told(module, command)
-        return Asked(tuple(enumerate(dcon.readings(response, module.profile))), wire + module.wire(command), heard)
+        return (yield from asked_at_once(module, dcon.ReadSynchronizedData(module.address)))
 
     yield from agree(module, partial(asked_at_once, module, dcon.ReadAnalogInputs(module.address)), sampled)
 

@@ -170,7 +170,7 @@ def _unknown(module: Subject) -> Procedure[None]:
 def _way_of_refusal(module: Subject) -> Procedure[None]:
     body = (_UNKNOWN[0] % module.address).encode()
     heard = yield from module.expect_one_of(module.seal(body) + b"\r", (None, module.refused))
-    raise Note(f"an unknown command is answered {'with silence' if heard is None else _text(heard)}", erratum="E27")
+    raise Note(f"an unknown command is answered with {'silence' if heard is None else _text(heard)}", erratum="E27")
 
 
 def _of_other_models(module: Subject) -> Procedure[None]:

@@ -30,7 +30,10 @@ _MOST_TYPES = 11
 
 
 def asked_at_once(module: Subject, command: dcon.Command[Any]) -> Procedure[Asked]:
-    """Read all channels by one DCON command, and decode them with their types."""
+    """Read all channels by one DCON command, and decode them with their types.
+
+    Errors: `Difference` for readings that are not of their types, and those of `told`.
+    """
     response, heard = yield from told(module, command)
     wire = module.wire(command)
     try:
