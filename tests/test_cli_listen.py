@@ -171,7 +171,7 @@ def test_a_port_that_is_lost_is_one_line_of_error(run: Run, monkeypatch: pytest.
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        ((), 2, "give a port, such as i7000 listen /dev/ttyUSB0"),
+        ((), 2, "give a port or a file, such as i7000 listen /dev/ttyUSB0"),
         (("sim:",), 2, "sim:"),
         (("/dev/nothing",), 3, "/dev/nothing: No such file or directory"),
         (("COM3", "--seconds", "-1"), 2, "--seconds -1: give 0 to 1000000000"),

@@ -46,8 +46,8 @@ EXTRAS = {
     "simulator": {"cattrs", "filelock", "serial"},
 }
 PURE = {
-    "attrs", "bisect", "codecs", "collections", "contextlib", "datetime", "decimal", "enum", "functools", "itertools", "json",
-    "difflib", "fnmatch", "hashlib", "html", "linecache", "math", "operator", "random", "re", "shlex", "struct",
+    "attrs", "bisect", "codecs", "collections", "contextlib", "datetime", "decimal", "enum", "functools", "itertools",
+    "difflib", "fnmatch", "hashlib", "html", "json", "linecache", "math", "operator", "random", "re", "shlex", "struct",
     "types", "typing", "xml",
 }  # fmt: skip
 MODULES = sorted(SRC.rglob("*.py"))

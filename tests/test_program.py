@@ -52,6 +52,7 @@ PROGRAMS = {
     "simulate": ("i7000_cli", *MODELS, "--tcp", "0"),
     "sync_driver": ("i7000.examples.sync_driver", "/dev/null", "--model", "M-7018"),
     "async_driver": ("i7000.examples.async_driver", "/dev/null", "--model", "M-7018"),
+    "vector_runner": ("i7000.examples.vector_runner",),
 }
 
 

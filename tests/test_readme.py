@@ -91,6 +91,8 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
         "tests/README.md",
         "docs/half_duplex.md",
         "docs/find_a_module.md",
+        "docs/judge_a_line.md",
+        "docs/port_the_codec.md",
     ],
 )
 def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:

@@ -12,6 +12,8 @@ Parts, from the outside:
   `module_text` show what happens; `control`, `operating` and `keys` operate it while it runs.
 * For `proxy`: `proxying` runs it. For both: `serving` has their ports and how they end, and `outlet` writes without
   waiting.
+* For `vectors`: `vector_files` reads the vectors, `codec_process` is the other program, `codec_run` gives it the cases,
+  `vector_records` makes the reports, `vector_schema` describes messages and reports.
 * For all: `words`, `choices`, `numbers` and `units` read values, `refusals` reports those that are refused, `text`
   prints.
 

@@ -28,6 +28,7 @@ from i7000.cli.send import send
 from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
 from i7000.cli.text import Printer
+from i7000.cli.vectors import DELIMITER, vectors
 from i7000.cli.words import UsageError
 from i7000_cli import CLOSED, INTERRUPTED
 
@@ -44,7 +45,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    check, report, replay, provoke,
+    check, report, replay, provoke, vectors,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())
@@ -61,6 +62,9 @@ def install_completion(shell: Literal["bash", "zsh", "fish"], /) -> int:
 def run(arguments: Sequence[str] | None) -> int:
     """Run the command line, and return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments and arguments[0] == vectors.__name__ and DELIMITER in arguments:  # cyclopts drops the first of these
+        at = arguments.index(DELIMITER)
+        arguments = [*arguments[:at], DELIMITER, *arguments[at:]]
     try:
         return app(arguments, exit_on_error=False, print_error=False, result_action="return_value") or 0
     except (BrokenPipeError, SystemExit):  # rich makes the latter of the former

@@ -91,7 +91,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     the baseline; 2 for wrong usage, 3 if the port cannot be opened or is lost or the module does not answer, 4 for an
     internal error, 5 if nothing was decided, 6 if the module was left changed, 130 after Ctrl-C. The worst one wins.
     """
-    from i7000.cli.checking import Wishes, explained, listed, run  # noqa: PLC0415 - it takes time
+    from i7000.cli.check_options import Wishes  # noqa: PLC0415 - it takes time
+    from i7000.cli.check_text import explained, listed  # noqa: PLC0415 - it takes time
+    from i7000.cli.checking import run  # noqa: PLC0415 - it takes time
 
     if list_:
         return listed((*((target,) if target else ()), *select))

@@ -1,8 +1,7 @@
 """A run of checks at a port: what it asks for first, what it shows, and how it leaves the module.
 
-Laws: everything that can be wrong with the options is said before the port is opened. Before the first frame that
-changes something, the settings of the module are in a file. Whatever ends the run, the module is restored, and what
-became of it is said.
+Laws: before the first frame that changes something, the settings of the module are in a file. Whatever ends the run,
+the module is restored, and what became of it is said.
 """
 
 import json
@@ -12,263 +11,41 @@ from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from importlib.metadata import version
-from pathlib import Path
 from typing import IO, Any
 
-from attrs import define, frozen
+from attrs import define
 
-from i7000 import InvalidValueError, Protocol, spec
+from i7000 import spec
 from i7000.cli.asked import LEFT_CHANGED, Asked
-from i7000.cli.durations import seconds
-from i7000.cli.module import named
+from i7000.cli.check_options import Settings, Wishes, settings_of, write_baseline
+from i7000.cli.check_text import STYLES, details
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
-from i7000.cli.records import frame_words
-from i7000.cli.report_files import KINDS, MADE, write_report
+from i7000.cli.report_files import MADE, write_report
 from i7000.cli.snapshot_file import check_new, write_new
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import LineError, UsageError
-from i7000.conformance.hazard import Hazard, allowing
+from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
-from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run, exit_code, plan, selected
+from i7000.conformance.run import Begun, CheckResult, Planned, Run, exit_code, plan
 from i7000.conformance.settle import Settled, settle
-from i7000.conformance.statement import Statement
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
 from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, Observed, Received, VirtualPort, Written
 from i7000.link.guarded import GuardedPort
 
-__all__ = ["Wishes", "allowed_of", "explained", "listed", "run"]
+__all__ = ["run"]
 
-_INTERRUPTED = 128 + signal.SIGINT
-_LARGEST_BASELINE = 1 << 20
-_SCALES = 0.1, 100.0
-_MOST_WRITES = 10_000
-_ASKED_FOR = {
-    "write": Hazard.WRITE,
-    "broadcast": Hazard.BROADCAST,
-    "comm": Hazard.COMM,
-    "calibration": Hazard.CALIBRATION,
-}
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _SIMULATED = "sim:"
 """The targets whose time is virtual: they take none."""
 
 
-@frozen(kw_only=True)
-class Wishes:
-    """The options of a run."""
-
-    select: tuple[str, ...]
-    allow: tuple[str, ...]
-    confirm: str | None
-    can_power_cycle: bool
-    strict: bool
-    certify: bool
-    baseline: str | None
-    baseline_update: bool
-    reports: tuple[str, ...]
-    snapshot: str | None
-    seed: int
-    max_time: str | None
-    timeout_scale: float
-    eeprom_writes: int
-    quiet: bool
-
-
-@frozen
-class Settings:
-    """What the options mean."""
-
-    ids: frozenset[str]
-    options: Options
-    reports: tuple[tuple[str, str], ...]
-    known: frozenset[str]
-    """The failures of the baseline."""
-
-
-def _settings(wishes: Wishes) -> Settings:
-    """Return what the options mean.
-
-    Errors: `UsageError`.
-    """
-    if wishes.certify and (wishes.select or wishes.baseline):
-        raise UsageError("--certify checks everything: leave out the selection and --baseline")
-    try:
-        ids = selected(spec.statements(), wishes.select)
-    except InvalidValueError as error:
-        raise UsageError(error) from None
-    low, high = _SCALES
-    if not low <= wishes.timeout_scale <= high:
-        raise UsageError(f"--timeout-scale {wishes.timeout_scale:g}: give {low:g} to {high:g}")
-    if not 0 <= wishes.eeprom_writes <= _MOST_WRITES:
-        raise UsageError(f"--eeprom-writes {wishes.eeprom_writes}: give 0 to {_MOST_WRITES}")
-    limit = None
-    if wishes.max_time is not None:
-        with named(f"--max-time {wishes.max_time}"):
-            limit = seconds(wishes.max_time)
-    if wishes.baseline_update and wishes.baseline is None:
-        raise UsageError("--baseline-update needs --baseline FILE")
-    options = Options(
-        allowed=_allowed(wishes),
-        seed=wishes.seed,
-        timeout_scale=wishes.timeout_scale,
-        writes=wishes.eeprom_writes,
-        seconds=limit,
-    )
-    return Settings(ids, options, _reports(wishes.reports), _baseline(wishes))
-
-
-def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:
-    """Return what the texts of --allow allow.
-
-    Errors: `UsageError`.
-    """
-    hazards = []
-    for text in texts:
-        if text not in _ASKED_FOR:
-            raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
-        hazards.append(_ASKED_FOR[text])
-    return allowing(hazards)
-
-
-def _allowed(wishes: Wishes) -> frozenset[Hazard]:
-    allowed = allowed_of(wishes.allow)
-    if Hazard.COMM in allowed and not wishes.can_power_cycle:
-        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
-    if Hazard.CALIBRATION in allowed and wishes.confirm is None:
-        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
-    return allowed
-
-
-def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
-    """Return the kinds and files of reports, which can be written: that is tried.
-
-    Errors: `UsageError`; `OSError` for a file that cannot be written.
-    """
-    found = []
-    for text in texts:
-        kind, equals, file = text.partition("=")
-        if kind not in KINDS or not equals or not file:
-            raise UsageError(f"--report {text}: give KIND=FILE; kinds are {', '.join(KINDS)}")
-        with Path(file).open("a", encoding="utf-8"):
-            pass
-        found.append((kind, file))
-    return tuple(found)
-
-
-# --- the baseline -----------------------------------------------------------------------------------------------------
-
-
-def _baseline(wishes: Wishes) -> frozenset[str]:
-    """Return the ids of the failures that are known.
-
-    Errors: `UsageError` for a file that is not a baseline, `OSError` for one that cannot be read.
-    """
-    if wishes.baseline is None:
-        return frozenset()
-    file = Path(wishes.baseline)
-    if wishes.baseline_update and not file.exists():
-        with file.open("a", encoding="utf-8"):
-            return frozenset()
-    with file.open("rb") as opened:
-        data = opened.read(_LARGEST_BASELINE + 1)
-    if wishes.baseline_update and not data:
-        return frozenset()
-    try:
-        document = json.loads(data) if len(data) <= _LARGEST_BASELINE else None
-    except (ValueError, RecursionError):
-        document = None
-    document = document if isinstance(document, dict) and document.get("schema_version") == 1 else {}
-    failures = document.get("failures")
-    if not isinstance(failures, dict):
-        raise UsageError(f"{file}: this is not a baseline: write one with --baseline-update")
-    unknown = sorted(set(failures) - set(spec.statements()))
-    if unknown:
-        raise UsageError(f"{file}: there is no check {unknown[0]}")
-    return frozenset(failures)
-
-
-_FAILURES = frozenset({Verdict.FAIL, Verdict.FLAKY, Verdict.PASS_GOOD_ONLY, Verdict.WARN})
-
-
-def _write_baseline(path: str, results: Iterable[CheckResult]) -> None:
-    failures = {it.id: it.verdict.value for it in results if it.verdict in _FAILURES}
-    text = json.dumps({"schema_version": 1, "failures": dict(sorted(failures.items()))}, indent=2)
-    Path(path).write_text(text + "\n", encoding="ascii")
-
-
-# --- without a port ---------------------------------------------------------------------------------------------------
-
-
-def listed(select: tuple[str, ...]) -> int:
-    """List the checks, one a line; return the exit code."""
-    try:
-        ids = selected(spec.statements(), select)
-    except InvalidValueError as error:
-        raise UsageError(error) from None
-    printer = Printer()
-    width = max(map(len, ids))
-    for statement in spec.statements().values():
-        if statement.id in ids:
-            hazards = ",".join(hazard.value for hazard in Hazard if hazard in statement.hazards)
-            printer.lines(
-                [
-                    [
-                        (f"{statement.id:{width}}", "cyan"),
-                        (f"  {statement.level.value:8} {hazards:9} ", ""),
-                        (statement.title, ""),
-                    ]
-                ]
-            )
-    return 0
-
-
-def explained(text: str) -> int:
-    """Explain a check; return the exit code."""
-    try:
-        ids = selected(spec.statements(), [text])
-    except InvalidValueError as error:
-        raise UsageError(error) from None
-    if text not in ids:
-        raise UsageError(f"--explain {text}: give one id; see i7000 check --list {text}")
-    printer, statement = Printer(), spec.statements()[text]
-    printer.lines(_explanation(statement))
-    return 0
-
-
-_PROTOCOLS = {None: "", Protocol.DCON: "DCON", Protocol.MODBUS_RTU: "Modbus RTU"}
-
-
-def _explanation(statement: Statement) -> list[Line]:
-    rows = [
-        ("requirement", statement.requirement),
-        ("sections", ", ".join(statement.sections)),
-        ("level", statement.level.value),
-        ("sends", ", ".join(hazard.value for hazard in Hazard if hazard in statement.hazards) or "plain reads"),
-        (
-            "protocol",
-            _PROTOCOLS[statement.protocol],
-        ),
-        ("command", statement.command or ""),
-        ("function", statement.function or ""),
-        ("register", statement.register or ""),
-        ("models", ", ".join(model.value for model in statement.models or ())),
-        ("needs", ", ".join(statement.needs)),
-        ("errata", ", ".join(statement.errata)),
-    ]
-    lines: list[Line] = [[(statement.id, "cyan"), (f"  {statement.title}", "bold")]]
-    return [*lines, *([(f"  {name:12}", ""), (value, "")] for name, value in rows if value)]
-
-
-# --- with a port ------------------------------------------------------------------------------------------------------
-
-
 def run(asked: Asked, wishes: Wishes) -> int:
     """Carry out a run; return the exit code."""
-    settings = _settings(wishes)
+    settings = settings_of(wishes)
     if wishes.snapshot is not None:
         check_new(wishes.snapshot)
     printer = Printer()
@@ -429,7 +206,7 @@ class _Checking:
         self._finish(end_record(one.results, settled, writes=one.writes, exit_code=code, complete=not ended))
         self._summary(one, settled, code, ended)
         if self._wishes.baseline_update and self._wishes.baseline is not None and not ended:
-            _write_baseline(self._wishes.baseline, one.results)
+            write_baseline(self._wishes.baseline, one.results)
             return code if code != 1 else 0
         return code
 
@@ -459,12 +236,12 @@ class _Checking:
         spans: Line = [
             (f"{result.id:{self._width}}", "cyan"),
             ("  ", ""),
-            (f"{result.verdict.value:14}", _STYLES[result.verdict]),
+            (f"{result.verdict.value:14}", STYLES[result.verdict]),
             (f" {result.seconds * 1000:6.0f} ms  ", "dim"),
             (", ".join(result.statement.sections), "dim"),
             (known, ""),
         ]
-        self._printer.lines([spans, *_details(result)])
+        self._printer.lines([spans, *details(result)])
         self._printer.flush()
 
     def _summary(self, one: Run, settled: Settled | None, code: int, ended: int) -> None:
@@ -484,35 +261,3 @@ class _Checking:
             self._printer.error("INCOMPLETE: stopped before the end")
         if self._wishes.certify:
             self._printer.lines([[("PASSED" if code == 0 else "NOT PASSED", "bold")]])
-
-
-_STYLES = {
-    Verdict.PASS: "green",
-    Verdict.PASS_GOOD_ONLY: "yellow",
-    Verdict.INCONCLUSIVE: "yellow",
-    Verdict.WARN: "yellow",
-    Verdict.INFO: "blue",
-    Verdict.FAIL: "red",
-    Verdict.SKIP: "dim",
-    Verdict.ERROR: "red",
-    Verdict.FLAKY: "red",
-}
-
-
-def _details(result: CheckResult) -> list[Line]:
-    """Return why a check did not pass."""
-    if result.verdict is Verdict.PASS:
-        return []
-    rows = [("", result.text)]
-    if result.sent or result.received:
-        rows.append(("sent", _bytes(result.sent)))
-        rows.append(("received", _bytes(result.received) or "nothing"))
-    if result.expected:
-        rows.append(("expected", result.expected))
-    if result.verdict in _FAILURES:
-        rows.append(("required", result.statement.requirement))
-    return [[(f"    {name:9}" if name else "    ", "dim"), (text, "")] for name, text in rows if text]
-
-
-def _bytes(wire: bytes) -> str:
-    return frame_words(wire, Protocol.DCON) if wire.endswith(b"\r") else wire.hex(" ").upper()

@@ -24,7 +24,7 @@ from i7000.dissect.capture import is_capture
 from i7000.recording import is_recording
 from i7000.settings import Protocol
 
-__all__ = ["decode"]
+__all__ = ["Input", "decode", "reads_of"]
 
 
 def decode(  # noqa: PLR0913 - each of them is an option
@@ -67,7 +67,7 @@ def decode(  # noqa: PLR0913 - each of them is an option
     knowledge = module.knowledge(protocol)
     shown = frozenset(map(address_of, address))
     printer = Printer(json=json)
-    with _reads(_Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, word, lines):
+    with reads_of(Input(frames, file, raw), knowledge, PROTOCOLS[protocol], printer) as (reads, word, lines):
         tally = _print(hinted(reads, PROTOCOLS[protocol]), knowledge, shown, printer)
     return tally.code(printer, word, lines.long if lines else Counted(), strict=strict)
 
@@ -76,15 +76,18 @@ def decode(  # noqa: PLR0913 - each of them is an option
 
 
 @frozen
-class _Input:
+class Input:
+    """What is decoded: frames, or a file, or else standard input."""
+
     frames: tuple[str, ...]
     file: Path | None
     raw: bool
+    """Whether the input is the bytes of the line."""
 
 
 @contextmanager
-def _reads(
-    given: _Input, knowledge: Knowledge, protocol: Protocol | None, printer: Printer
+def reads_of(
+    given: Input, knowledge: Knowledge, protocol: Protocol | None, printer: Printer
 ) -> Iterator[tuple[Iterable[Read], str, Lines | None]]:
     """Yield the input in pieces, and what their numbers count; what is decoded is printed before waiting for more."""
     if given.frames:

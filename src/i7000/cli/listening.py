@@ -10,7 +10,7 @@ from contextlib import ExitStack, contextmanager, redirect_stdout
 from datetime import UTC, datetime
 from functools import partial
 from time import monotonic, time
-from typing import IO, cast
+from typing import IO, TYPE_CHECKING, cast
 
 from attrs import evolve, frozen
 
@@ -23,12 +23,15 @@ from i7000.cli.records import frame_words, json_of
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError
 from i7000.dissect import Direction, Line
-from i7000.dissect.timing import TimedHeard, TimedLine, flush_at, hear_at
+from i7000.dissect.timing import TimedHeard, TimedLine, Times, flush_at, hear_at
 from i7000.recording import Carried
 from i7000.settings import LineSettings
 from i7000_cli import FAILED
 
-__all__ = ["Listener", "Listening", "run"]
+if TYPE_CHECKING:
+    from i7000.cli.judging import Judging
+
+__all__ = ["Listener", "Listening", "run", "show"]
 
 _SILENCE = 0.25
 """The seconds without a byte after which what was heard is complete."""
@@ -73,7 +76,9 @@ class Listener:
             frame = frame_words(heard.wire, heard.protocol)
             text = f"{time:%H:%M:%S}.{time.microsecond // 1000:03}  {after:>12}  {_ARROWS[sent]} {frame}"
             number = heard.place.number
-            yield Read(number, number, number, text, time.isoformat(), heard)
+            times = Times(it.began, it.ended, it.gap)
+            knowledge = self.timed.line.knowledge
+            yield Read(number, number, number, text, time.isoformat(), heard, None, None, knowledge, times)
 
 
 # --- at a port --------------------------------------------------------------------------------------------------------
@@ -92,6 +97,8 @@ class Listening:
     """The names of the messages to show; all if there are none."""
     seconds: float
     recording: RecordOptions
+    judging: "Judging | None" = None
+    """What judges the frames, and prints findings in their place."""
 
     def shows(self, read: Read) -> bool:
         """Return whether a frame is shown; one that cannot be decoded has no name."""
@@ -122,24 +129,35 @@ def run(listening: Listening, printer: Printer) -> int:
             )
         )
         listener = Listener(listening.line, began, write)
+        judging = listening.judging
         out = stack.enter_context(_never_held_up(printer))
         ending = stack.enter_context(ended_by_signals())
         now = 0.0
+        code = 0
+        if judging:
+            judging.begin(listening.target)
         try:
             while not ending.number and now < listening.seconds:
                 data = read(port, min(_SILENCE, listening.seconds - now))
                 now = monotonic() - start
-                _show(listener.hear(data, now) if data else listener.silence(now), listening, printer)
+                show(listener.hear(data, now) if data else listener.silence(now), listening, printer)
+            code = 128 + ending.number if ending.number else 0
         except OSError as error:
+            code = LineError.code
             raise LineError(error) from None
         finally:
-            _show(listener.silence(now), listening, printer)
-    if out.failed:
-        return FAILED
-    return 128 + ending.number if ending.number else 0
+            show(listener.silence(now), listening, printer)
+            if judging:
+                code = judging.end(code)
+    return FAILED if out.failed else code
 
 
-def _show(reads: Iterable[Read], listening: Listening, printer: Printer) -> None:
+def show(reads: Iterable[Read], listening: Listening, printer: Printer) -> None:
+    """Print what was read, or judge it."""
+    if listening.judging:
+        for read in reads:
+            listening.judging.take(read)
+        return
     for read in filter(listening.shows, reads):
         if printer.json:
             printer.write(json_of(read))

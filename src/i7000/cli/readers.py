@@ -5,8 +5,9 @@ Laws: pure; what is read of a line, packet or chunk depends on those before it, 
 
 import re
 from collections.abc import Iterable, Iterator
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime
 from enum import Enum
+from math import isnan, nan
 from typing import NamedTuple
 
 from attrs import evolve
@@ -15,10 +16,11 @@ from i7000.dissect import Heard, Kind, Knowledge, Line, Piece, Place, flush, hea
 from i7000.dissect.capture import Damage, Packet, packets
 from i7000.dissect.repeats import sent
 from i7000.dissect.stream import looks_like, split
+from i7000.dissect.timing import Times, taken
 from i7000.recording import Carried, Damaged, End, Start, read
 from i7000.settings import Protocol
 
-__all__ = ["Missing", "Read", "hinted", "of_capture", "of_lines", "of_recording", "of_stream"]
+__all__ = ["Missing", "Read", "hinted", "of_capture", "of_lines", "of_recording", "of_stream", "stamped"]
 
 _STAMP = re.compile(
     r"(?<![\w:.])(?:\d{4}[-/.]\d\d[-/.]\d\d[T ])?\d\d?:\d\d:\d\d(?:[.,]\d{1,9})?(?:Z|[-+]\d\d:?\d\d)?(?![\w:])"
@@ -54,6 +56,12 @@ class Read(NamedTuple):
     """Why nothing was heard there."""
     note: str | None = None
     """The same in words."""
+    knowledge: Knowledge | None = None
+    """What is known of the modules after it was heard; None if nothing was heard."""
+    times: Times | None = None
+    """When, in seconds; None if unknown, or only written in `time`."""
+    sent: bool | None = None
+    """Whether the host sent it; None if the input does not say."""
 
     @property
     def understood(self) -> bool:
@@ -83,7 +91,7 @@ def of_lines(lines: Iterable[tuple[int, str]], knowledge: Knowledge, protocol: P
             if heard is not None and before is not None and _is_before(time, before[0]):
                 heard = _noted(heard, before[1])
             before = time, f"line {start}"
-        yield Read(number, start, last, _shown(text), time, heard, missing, note)
+        yield Read(number, start, last, _shown(text), time, heard, missing, note, line.knowledge)
 
 
 def hinted(reads: Iterable[Read], protocol: Protocol | None) -> Iterator[Read]:
@@ -127,6 +135,27 @@ def _read_time(time: str) -> tuple[str, str, float]:
     return date, zone, int(hours) * 3600 + int(minutes) * 60 + float(f"{seconds}.{fraction or 0}")
 
 
+def stamped(time: str) -> Times | None:
+    """Return the time that a log has beside a frame in seconds, as fine as it is written; None for what is not a date.
+
+    >>> stamped("12:00:01.25")
+    Times(began=43201.25, ended=43201.25, gap=0.0, resolution=0.01)
+    """
+    if not _CLOCK.search(time):
+        return None
+    day, _, seconds = _read_time(time)
+    try:
+        days = date(*map(int, _NUMBER.findall(day))).toordinal() if day else 0
+    except ValueError:
+        return None
+    *_, fraction, _ = _CLOCK.split(time, 1)
+    at = days * 86400 + seconds
+    return Times(at, at, resolution=10.0 ** -len(fraction or ""))
+
+
+_NUMBER = re.compile(r"\d+")
+
+
 def _protocol_of(piece: Piece) -> Protocol:
     if piece.kind is Kind.DAMAGED:
         return looks_like(piece.wire)
@@ -151,9 +180,9 @@ def of_stream(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | 
     line = Line(knowledge, protocol)
     for piece in data:
         line, found = hear(line, piece) if piece else flush(line)
-        yield from (_frame(heard, heard.place.number, None) for heard in found)
+        yield from (_frame(heard, heard.place.number, line.knowledge) for heard in found)
     line, found = flush(line)
-    yield from (_frame(heard, heard.place.number, None) for heard in found)
+    yield from (_frame(heard, heard.place.number, line.knowledge) for heard in found)
 
 
 def of_capture(data: Iterable[bytes], knowledge: Knowledge, protocol: Protocol | None) -> Iterator[Read]:
@@ -198,12 +227,13 @@ def _of_packets(
     found: Iterable[Packet | Damage], word: str, knowledge: Knowledge, protocol: Protocol | None
 ) -> Iterator[Read]:
     line = Line(knowledge, protocol)
+    arrivals: list[tuple[float, int]] = []
     before: Packet | None = None
     late: str | None = None
     for packet in found:
         if before is not None and (isinstance(packet, Damage) or _is_apart(before, packet)):
             line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
-            yield from (_frame(it, before.number, before, late) for it in heard)
+            yield from _frames(heard, line.knowledge, before, late, arrivals)
         if isinstance(packet, Damage):
             line = evolve(line, count=line.count + 1)
             at = before.number if before else 0
@@ -221,16 +251,30 @@ def _of_packets(
         for note in _lost(packet):
             line = evolve(line, count=line.count + 1)
             yield Read(line.count, packet.number, packet.number, "", _utc(packet), None, Missing.DAMAGE, note)
+        arrivals += [(nan if packet.time is None else packet.time, len(packet.wire))] if packet.wire else []
         line, heard = hear(line, packet.wire, f"{word} {packet.number}", sent=packet.outbound)
         late = f"{word} {before.number}" if before and _is_late(before, packet) else None
-        yield from (_frame(it, packet.number, packet, late) for it in heard)
+        yield from _frames(heard, line.knowledge, packet, late, arrivals)
         if line.rest and _is_whole(line.rest, protocol):
             line, heard = flush(line, f"{word} {packet.number}", sent=packet.outbound)
-            yield from (_frame(it, packet.number, packet, late) for it in heard)
+            yield from _frames(heard, line.knowledge, packet, late, arrivals)
         before = packet
     if before is not None:
         line, heard = flush(line, f"{word} {before.number}", sent=before.outbound)
-        yield from (_frame(it, before.number, before, late) for it in heard)
+        yield from _frames(heard, line.knowledge, before, late, arrivals)
+
+
+def _frames(
+    found: Iterable[Heard], knowledge: Knowledge, packet: Packet, late: str | None, arrivals: list[tuple[float, int]]
+) -> Iterator[Read]:
+    """Yield frames with the times of the packets that had them, which are removed from `arrivals`."""
+    for heard in found:
+        times = taken(arrivals, len(heard.wire))
+        read = _frame(heard, packet.number, knowledge, packet, late)
+        known = not any(map(isnan, times)) and times == sorted(times)
+        yield (
+            read._replace(times=Times.of(times), sent=packet.outbound) if known else read._replace(sent=packet.outbound)
+        )
 
 
 def _is_late(before: Packet, packet: Packet) -> bool:
@@ -270,7 +314,9 @@ def _is_apart(before: Packet, packet: Packet) -> bool:
 _ESCAPES = {code: f"\\x{code:02x}" for code in (*range(0x20), 0x7F)} | {9: r"\t", 10: r"\n", 13: r"\r"}
 
 
-def _frame(heard: Heard, line: int, packet: Packet | None, late: str | None = None) -> Read:
+def _frame(
+    heard: Heard, line: int, knowledge: Knowledge, packet: Packet | None = None, late: str | None = None
+) -> Read:
     """Return what was heard; `late` is the packet before, if the time of that is later."""
     wire = heard.wire
     text = wire.hex(" ").upper()
@@ -278,4 +324,5 @@ def _frame(heard: Heard, line: int, packet: Packet | None, late: str | None = No
         shown = wire[:-1] if len(wire) > 1 and wire[-1:] == b"\r" else wire
         text = shown.decode("ascii", "backslashreplace").translate(_ESCAPES)
     heard = heard if late is None else _noted(heard, late)
-    return Read(heard.place.number, line, line, text, packet and _utc(packet), heard)
+    time = packet and _utc(packet)
+    return Read(heard.place.number, line, line, text, time, heard, knowledge=knowledge)

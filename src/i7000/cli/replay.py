@@ -40,7 +40,7 @@ def replay(  # noqa: PLR0913 - each of them is an option
     Exit code: 0 if all answers are those of the report, 1 if some are not, 2 for wrong usage or a frame that is not
     allowed, 3 if the port cannot be opened or is lost, 5 if the report has no frames, 130 after Ctrl-C.
     """
-    from i7000.cli.checking import allowed_of  # noqa: PLC0415 - it takes time
+    from i7000.cli.check_options import allowed_of  # noqa: PLC0415 - it takes time
     from i7000.cli.reached import OpenLine  # noqa: PLC0415 - it takes time
     from i7000.cli.reached import run as at_port  # noqa: PLC0415 - it takes time
     from i7000.cli.report_files import read_lines  # noqa: PLC0415 - it takes time

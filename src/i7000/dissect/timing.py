@@ -7,7 +7,9 @@ Laws: a byte has the time of the piece in which it arrived, which is later than 
 operating systems collect bytes, often for 16 ms. What that can explain is not noted.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 from attrs import field
 
@@ -18,12 +20,30 @@ from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.settings import Protocol
 
-__all__ = ["TimedHeard", "TimedLine", "flush_at", "hear_at"]
+__all__ = ["TimedHeard", "TimedLine", "Times", "flush_at", "hear_at", "taken"]
 
 _LUMP = 0.02
 """The seconds that adapters can hold bytes back."""
 _PATIENCE = 0.2
 """The seconds that hosts usually wait for the beginning of a response: the default of `i7000.host.Policy`."""
+
+
+class Times(NamedTuple):
+    """The times of a frame, in seconds."""
+
+    began: float
+    """The time of its first byte."""
+    ended: float
+    """The time of its last byte."""
+    gap: float = 0.0
+    """The longest time without a byte inside it."""
+    resolution: float = 0.0
+    """How far a time is from the next that could have been written; 0 for a clock that is fine enough."""
+
+    @classmethod
+    def of(cls, pieces: Sequence[float]) -> "Times":
+        """Return the times of a frame from those of its pieces."""
+        return cls(pieces[0], pieces[-1], max((later - earlier for earlier, later in pairwise(pieces)), default=0.0))
 
 
 @frozen
@@ -105,16 +125,15 @@ def _timed(
     left = list(arrivals)
     told = []
     for heard in found:
-        times = _taken(left, len(heard.wire))
-        gap = max((later - earlier for earlier, later in pairwise(times)), default=0.0)
-        after = None if last is None else times[0] - last.ended
+        began, ended, gap, _ = Times.of(taken(left, len(heard.wire)))
+        after = None if last is None else began - last.ended
         notes = (*_pause_notes(heard, last, after), *_gap_notes(heard, gap), *_late_notes(heard, last, after))
-        last = TimedHeard(heard, times[0], times[-1], after, gap, notes)
+        last = TimedHeard(heard, began, ended, after, gap, notes)
         told.append(last)
     return TimedLine(line, arrivals=tuple(left), last=last, clock=now), tuple(told)
 
 
-def _taken(arrivals: list[tuple[float, int]], count: int) -> list[float]:
+def taken(arrivals: list[tuple[float, int]], count: int) -> list[float]:
     """Remove so many bytes from the first pieces, and return the times of those pieces."""
     times = []
     while count:
