@@ -15,7 +15,7 @@ from random import Random
 from attrs import evolve
 
 from i7000.conformance.checks import STEPS
-from i7000.conformance.guard import GuardError
+from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.statement import Level, Statement
@@ -182,6 +182,8 @@ class Run:
         self.began: float | None = None
         self.writes = 0
         """The frames so far that may have changed the EEPROM."""
+        self.guard = Guard(options.allowed)
+        """What was sent so far; as strict as the guard of the port."""
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
@@ -193,8 +195,15 @@ class Run:
 
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
+        first = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
+        yield from first.end_line()
+        self.guard = first.guard
         for group in _halves(self.planned):
             yield from self.checks(group)
+
+    def _subject(self, chance: Random) -> Subject:
+        scale, writes = self.options.timeout_scale, self.options.writes - self.writes
+        return Subject(self.twin, self.line, scale, chance, self.now or 0.0, self.guard, writes)
 
     def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
@@ -241,14 +250,7 @@ class Run:
         return None
 
     def _once(self, statement: Statement) -> Procedure[CheckResult]:
-        subject = Subject(
-            self.twin,
-            self.line,
-            self.options.timeout_scale,
-            Random(f"{self.options.seed} {statement.id}"),  # noqa: S311 - repeatable
-            self.now or 0.0,
-            self.options.writes - self.writes,
-        )
+        subject = self._subject(Random(f"{self.options.seed} {statement.id}"))  # noqa: S311 - repeatable
         before = subject.writes_left
         heard = False
         answer: object = None
@@ -281,6 +283,7 @@ class Run:
             verdict, reason = other.verdict, other
         finally:
             steps.close()
+            self.guard = subject.guard
         writes = before - subject.writes_left
         self.writes += writes
         seconds = 0.0 if started is None or self.now is None else self.now - started

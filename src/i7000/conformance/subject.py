@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 from attrs import define, field
 
 from i7000 import dcon, modbus
-from i7000.conformance.guard import hazards_of
-from i7000.conformance.hazard import Hazard
+from i7000.conformance.guard import Guard, GuardError, hazards_of
+from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
@@ -29,6 +29,9 @@ _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
+_SILENCE = 0.3
+"""The silence in seconds that ends every request by Modbus, also for the guard of the port."""
+_LINE_END = b"#\r"
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
@@ -48,8 +51,10 @@ class Subject:
     chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
     now: float = 0.0
     """The time of the line at the end of the last step."""
+    guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
+    """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
-    """How many frames may still change the EEPROM."""
+    """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
     @property
     def protocol(self) -> Protocol:
@@ -110,8 +115,15 @@ class Subject:
         Shape: pieces of a frame follow each other without a pause, or after one of so many seconds.
         """
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
-        for _, wire in parts:
-            self._count(wire)
+        before = self.guard
+        try:
+            self._admit_all(parts)
+        except GuardError:
+            self.guard = before
+            if not all(hazards_of(wire, self.line) <= self.guard.allowed | {Hazard.OBSERVE} for _, wire in parts):
+                raise
+            yield from self.end_line()
+            self._admit_all(parts)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
@@ -119,15 +131,43 @@ class Subject:
         self.now = heard.now
         return heard
 
-    def _count(self, wire: bytes) -> None:
-        """Count bytes that can change the EEPROM.
+    def end_line(self) -> Procedure[None]:
+        """End what modules of either protocol may have heard as the beginning of a command or request.
 
-        Errors: `Skipped` if all writes of the run are used up.
+        Special: DCON has no timeout, so that requests by Modbus may add up to a command; a leading character and a
+            carriage return end every such line, and no module carries them out.
         """
-        if hazards_of(wire, self.line) & _STORED:
-            if not self.writes_left:
-                raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
+        yield Wait(_SILENCE)
+        self.guard = self.guard.after_silence()
+        if self.protocol is Protocol.MODBUS_RTU:
+            self.guard = self.guard.sending(_LINE_END, self.line)
+            self.now = (yield SendBytes(((0.0, _LINE_END),), 0.0)).now
+
+    def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
+        for _, wire in parts:
+            self._admit(wire)
+
+    def _admit(self, wire: bytes) -> None:
+        """Let the guard see bytes, and count those with which a module would change its EEPROM.
+
+        Errors: `GuardError`; `Skipped` if all writes of the run are used up.
+        """
+        self.guard, hazards = self.guard.judged(wire, self.line)
+        if hazards & _STORED:
+            self._count(self.twin.hear(wire, self.now)[0])
+
+    def _count(self, after: Twin) -> None:
+        if after.state.eeprom != self.twin.state.eeprom:
+            self.reserve(1)
             self.writes_left -= 1
+
+    def reserve(self, writes: int) -> None:
+        """Make sure that a change of settings can be made and taken back.
+
+        Errors: `Skipped` if the run has not so many writes left.
+        """
+        if self.writes_left < writes:
+            raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
 
     def wait(self, seconds: float) -> Procedure[None]:
         """Wait for so many seconds."""
@@ -175,7 +215,9 @@ class Subject:
 
     def hear(self, wire: bytes) -> Answer:
         """Give the twin a frame that is sent to the module, and return its answer."""
-        self.twin, answer = self.twin.hear(wire, self.now)
+        after, answer = self.twin.hear(wire, self.now)
+        self._count(after)
+        self.twin = after
         return answer
 
     def decoded(self, answer: Answer, heard: bytes) -> Any:  # noqa: ANN401 - any response
