@@ -8,6 +8,8 @@ from functools import cache
 from typing import Any
 from zlib import crc32
 
+from attrs import evolve
+
 from fuzz.inputs import HEADER, profile_of
 from i7000 import DecodeError, EncodeError, Model, Profile, dcon, modbus
 from i7000.errors import Fault
@@ -132,7 +134,7 @@ def _check_readings(response: Any, profile: Profile) -> None:  # noqa: ANN401 - 
         fields = dcon.fields(readings, profile)
     except EncodeError:  # beyond the span, or without a sentinel in this format
         return
-    assert dcon.readings(type(response)(fields), profile) == readings
+    assert dcon.readings(evolve(response, values=fields), profile) == readings
 
 
 def _modbus_frame(data: bytes) -> bytes:

@@ -21,8 +21,14 @@ def main(target: str) -> None:
 
         _instrument_generated(atheris, compiled)
         from fuzz.targets import TARGETS  # noqa: PLC0415 - the same
-    atheris.Setup(sys.argv, TARGETS[target].run)
+    atheris.Setup([_program(), *sys.argv[1:]], TARGETS[target].run)
     atheris.Fuzz()
+
+
+def _program() -> str:
+    """Return what the shell starts this program with: libFuzzer does that to merge corpora, and for several jobs."""
+    spec = sys.modules["__main__"].__spec__
+    return sys.argv[0] if spec is None else f"{sys.executable} -m {spec.name}"
 
 
 def _instrument_generated(atheris: Any, module: Any) -> None:  # noqa: ANN401 - modules

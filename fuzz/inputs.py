@@ -33,7 +33,7 @@ def profile_of(data: bytes) -> Profile:
     return _profile(model % len(MODELS), settings, types % len(_TYPES))
 
 
-@lru_cache(maxsize=1 << 14)
+@lru_cache(maxsize=1 << 17)  # nearly all there are: making one takes longer than a target
 def _profile(model: int, settings: int, types: int) -> Profile:
     """Return a profile; what its model does not have is left out, type codes first."""
     common = {
@@ -69,11 +69,13 @@ def header(profile: Profile) -> bytes:
     return bytes((MODELS.index(profile.model), settings, types))
 
 
+_MOST_PIECES = 16
+
+
 def pieces(data: bytes, cut: int) -> Iterator[bytes]:
-    """Cut data into pieces of `cut` bytes, the first one shorter by a half."""
-    at = 0
-    size = max(1, cut // 2)
-    while at < len(data):
+    """Cut data into pieces of `cut` bytes, the first one shorter by a half; long data into larger pieces."""
+    size = max(1, cut, len(data) // _MOST_PIECES)
+    first = max(1, size // 2)
+    yield data[:first]
+    for at in range(first, len(data), size):
         yield data[at : at + size]
-        at += size
-        size = max(1, cut)

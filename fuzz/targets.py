@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from fuzz import codec_targets
+from fuzz import behaviour_targets, codec_targets, log_targets, stream_targets, value_targets
 
 __all__ = ["FOLDER", "TARGETS", "Target", "regressions"]
 
@@ -30,6 +30,20 @@ TARGETS = {
     "dcon_response": Target(codec_targets.dcon_response, "dcon", 300),
     "modbus_request": Target(codec_targets.modbus_request, "modbus", 300),
     "modbus_response": Target(codec_targets.modbus_response, "modbus", 300),
+    "reading_text": Target(value_targets.reading_text, "dcon", 20),
+    "reading_words": Target(value_targets.reading_words, "modbus", 64),
+    "registers": Target(value_targets.registers, "modbus", 300),
+    "dcon_split": Target(stream_targets.dcon_split, "dcon", 400),
+    "modbus_split": Target(stream_targets.modbus_split, "modbus", 400),
+    "device_step": Target(behaviour_targets.device_step, "both", 300),
+    "bus_hear": Target(behaviour_targets.bus_hear, "both", 300),
+    "host_receive": Target(behaviour_targets.host_receive, "both", 300),
+    "log_find": Target(log_targets.log_find, "log", 300),
+    "log_pieces": Target(log_targets.log_pieces_of, "log", 400),
+    "stream_hear": Target(log_targets.stream_hear, "both", 200),
+    "capture": Target(log_targets.capture, "capture", 1000),
+    "recording": Target(log_targets.recording, "json", 1000),
+    "snapshot": Target(log_targets.snapshot, "json", 2000),
 }
 
 
