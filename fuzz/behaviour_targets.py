@@ -142,7 +142,7 @@ def _lived_through(bus: Bus, ear: Ear, data: Iterator[bytes], signals: list[Sign
 
 
 def bus_hear(data: bytes) -> None:
-    """Let several modules hear a stream whole and in pieces: the same frames, the same modules.
+    """Check that several modules hear the same frames in a stream, whole and in pieces, and end in the same states.
 
     Shape: the profile of the first module, options, the size of the pieces, then the stream.
     """
@@ -166,7 +166,7 @@ _MOST_DEADLINES = 8
 
 
 def host_receive(data: bytes) -> None:
-    """Let a host hear hostile bytes: a request ends in one outcome, and its response is that of the codec.
+    """Check a host that hears hostile bytes: a request has one outcome, and its response is that of the codec.
 
     Shape: the profile, options, the command, then pieces after a byte each: its length, and whether the next deadline
         passes first.

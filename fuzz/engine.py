@@ -38,7 +38,7 @@ def _program() -> str:
 
 
 def _instrument_generated(atheris: Any, module: Any) -> None:  # noqa: ANN401 - modules
-    """Have the functions instrumented that the library generates from the syntax of messages: most of its branches."""
+    """Instrument the functions that the library generates from the syntax of messages: most of its branches."""
     compile_them = module.compiled
 
     def compiled(source: str, name: str, names: dict[str, Any]) -> Mapping[str, Any]:
