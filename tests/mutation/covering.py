@@ -81,7 +81,7 @@ ROWS = (
     Row("host", "src/i7000/host/procedures/snapshot.py", (
         ("tests/host/procedures/test_snapshot.py",), PROCEDURES, EVERYWHERE,
     )),
-    Row("host", "src/i7000/host/procedures/scan.py", (
+    Row("host", "src/i7000/host/procedures/[sp][cl]a*.py", (
         ("tests/host/procedures/test_scan.py",), PROCEDURES, EVERYWHERE,
     )),
     Row("host", "src/i7000/host/procedures/read.py", (
@@ -102,7 +102,7 @@ ROWS = (
         PROCEDURES, EVERYWHERE,
     )),
     Row("host", "src/i7000/host/*.py", (
-        ("tests/host/test_bus.py", "tests/host/test_dangers.py", "tests/host/test_help.py"), HOST,
+        ("tests/host/test_bus.py", "tests/host/test_abandon.py", "tests/host/test_dangers.py"), HOST,
         (*PROCEDURES, *EVERYWHERE),
     )),
     Row("device", "src/i7000/device/bus.py", (("tests/device/test_bus.py",), DEVICE, EVERYWHERE)),
