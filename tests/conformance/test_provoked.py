@@ -184,6 +184,12 @@ def test_an_answer_that_never_arrives_is_not_missing() -> None:
     assert judge(session(given, [line(2.1, 25.2)])).verdict is Verdict.PASS
 
 
+def test_of_very_many_wrong_values_the_first_are_explained() -> None:
+    judgement = judge(session(ONE, [line(1.1, 1000.0 + number) for number in range(300)]))
+
+    assert [it.kind for it in judgement.findings] == [Kind.WRONG] * 200
+
+
 # --- the end ----------------------------------------------------------------------------------------------------------
 
 

@@ -8,9 +8,10 @@ neither of them.
 """
 
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
 from math import inf
+from operator import attrgetter
 
 from attrs import define, evolve, field, frozen
 
@@ -21,6 +22,10 @@ __all__ = [
     "Ended", "Finding", "Given", "Judgement", "Kind", "Line", "Session", "Told", "Verdict", "is_decided", "judge",
 ]  # fmt: skip
 
+_RECENT = 100
+"""The answers before a line that it can rest on."""
+_MOST_WRONG = 200
+"""The wrong values that are explained."""
 _NO_TIME = 0.005
 """The seconds before a request in which an answer may arrive that the driver has read."""
 
@@ -172,7 +177,7 @@ def judge(session: Session) -> Judgement:
     findings = [*wrong, *_deadlocks(session)]
     if session.ended is not None and not session.finished:
         findings.append(Finding(Kind.ENDED, session.ended.at, session.ended.words))
-    if session.finished:
+    if session.finished and len(wrong) < _MOST_WRONG:
         findings += _missing(session, believed)
     if findings:
         return Judgement(Verdict.FAIL, tuple(sorted(findings, key=lambda it: it.at)), values=values)
@@ -189,7 +194,7 @@ def judge(session: Session) -> Judgement:
 
 def is_decided(session: Session) -> bool:
     """Return whether waiting changes nothing: a value was wrong, or all values of the last step were reported."""
-    beliefs, wrong = _believed(session)
+    beliefs, wrong = _believed(session, 1)
     steps = [Belief.MAY] * (len(session.steps) - 1) + [Belief.MUST]
     return bool(wrong) or not _missing(evolve(session, steps=tuple(steps)), beliefs)
 
@@ -212,8 +217,11 @@ class _Beliefs:
         return (given, told.channel) in self.used
 
 
-def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
-    beliefs, wrong = _Beliefs(), []
+def _believed(session: Session, most: int = _MOST_WRONG) -> tuple[_Beliefs, list[Finding]]:
+    """Return what was believed, and why lines are wrong: of so many at most, and nothing after the last of them."""
+    beliefs = _Beliefs()
+    wrong: list[Finding] = []
+    readings = _readings(session)
     for line in session.lines:
         said = line.said
         if isinstance(said, Unreadable):
@@ -222,9 +230,11 @@ def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
             steps = [it.step for it in _before(session, line) if it.address == said.address]
             beliefs.excused.add((steps[0] if steps else 0, said.address))
             continue
-        use = next(_uses(session, beliefs, line, said), None)
+        use = next(_uses(readings.get((said.address, said.channel), []), beliefs, line, said), None)
         if use is None:
             wrong.append(_wrong(session, beliefs, line, said))
+            if len(wrong) == most:
+                break
         else:
             given, told = use
             beliefs.used.add((given, told.channel))
@@ -232,18 +242,28 @@ def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
     return beliefs, wrong
 
 
-def _before(session: Session, line: Line) -> Iterator[Given]:
-    """Yield the answers before a line, the last first."""
-    return (it for it in reversed(session.given) if it.at <= line.at)
-
-
-def _uses(session: Session, beliefs: _Beliefs, line: Line, said: Believed) -> Iterator[_Use]:
-    """Yield the readings that a line may rest on."""
-    for given in _before(session, line):
-        if given.address == said.address and given.belief is not Belief.NEVER and not _is_orphan(session, given):
+def _readings(session: Session) -> dict[tuple[int, int | None], list[_Use]]:
+    """Return the readings that may be believed, by address and channel."""
+    found: dict[tuple[int, int | None], list[_Use]] = {}
+    for given in session.given:
+        if given.belief is not Belief.NEVER and not _is_orphan(session, given):
             for told in given.told:
-                if told.is_believed(said) and not beliefs.has(given, told):
-                    yield given, told
+                found.setdefault((given.address, told.channel), []).append((given, told))
+    return found
+
+
+def _before(session: Session, line: Line) -> Iterator[Given]:
+    """Return the answers before a line, the last first, as far as a line can rest on them."""
+    end = bisect_right(session.given, line.at, key=attrgetter("at"))
+    return reversed(session.given[max(0, end - _RECENT) : end])
+
+
+def _uses(readings: Sequence[_Use], beliefs: _Beliefs, line: Line, said: Believed) -> Iterator[_Use]:
+    """Yield the readings that a line may rest on, the last first."""
+    end = bisect_right(readings, line.at, key=lambda it: it[0].at)
+    for given, told in reversed(readings[max(0, end - _RECENT) : end]):
+        if told.is_believed(said) and not beliefs.has(given, told):
+            yield given, told
 
 
 def _is_orphan(session: Session, given: Given) -> bool:
