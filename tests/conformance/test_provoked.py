@@ -190,6 +190,15 @@ def test_of_very_many_wrong_values_the_first_are_explained() -> None:
     assert [it.kind for it in judgement.findings] == [Kind.WRONG] * 200
 
 
+@pytest.mark.parametrize(
+    ("held_up", "reason"), [(0.1, ""), (0.55, "doubtful: this machine held up the line for 0.6 s")]
+)
+def test_a_failure_on_a_busy_machine_is_doubtful(held_up: float, reason: str) -> None:
+    judgement = judge(session(ONE, [line(1.1, 26.0)], held_up=held_up))
+
+    assert (judgement.verdict, judgement.reason) == (Verdict.FAIL, reason)
+
+
 # --- the end ----------------------------------------------------------------------------------------------------------
 
 

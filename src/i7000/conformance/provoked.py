@@ -19,9 +19,12 @@ from i7000.conformance.believed import ERROR, MISSING, OK, Believed, Unreadable
 from i7000.conformance.scenarios import Belief
 
 __all__ = [
-    "Ended", "Finding", "Given", "Judgement", "Kind", "Line", "Session", "Told", "Verdict", "is_decided", "judge",
+    "Ended", "Finding", "Given", "Judgement", "Kind", "Line", "Session", "Told", "Verdict", "is_decided",
+    "judge",
 ]  # fmt: skip
 
+_MOST_HELD_UP = 0.15
+"""The seconds for which a line may be held up without effect on the verdict."""
 _RECENT = 100
 """The answers before a line that it can rest on."""
 _MOST_WRONG = 200
@@ -139,6 +142,8 @@ class Session:
     ended: Ended | None = None
     patience: float = 10.0
     """The longest time without a line of the driver."""
+    held_up: float = 0.0
+    """The longest time for which the machine of the line did not get to it."""
 
 
 @frozen
@@ -161,7 +166,7 @@ class Judgement:
     verdict: Verdict
     findings: tuple[Finding, ...] = ()
     reason: str = ""
-    """Why it is neither passed nor failed."""
+    """Why it is neither passed nor failed, or what makes a failure doubtful."""
     values: int = 0
     """The number of right values that it reported."""
 
@@ -180,7 +185,9 @@ def judge(session: Session) -> Judgement:
     if session.finished and len(wrong) < _MOST_WRONG:
         findings += _missing(session, believed)
     if findings:
-        return Judgement(Verdict.FAIL, tuple(sorted(findings, key=lambda it: it.at)), values=values)
+        is_slow = session.held_up > _MOST_HELD_UP
+        reason = f"doubtful: this machine held up the line for {session.held_up:.1f} s" if is_slow else ""
+        return Judgement(Verdict.FAIL, tuple(sorted(findings, key=lambda it: it.at)), reason, values)
     if not session.requests:
         return Judgement(Verdict.INCONCLUSIVE, reason="the driver sent nothing")
     if not session.given:

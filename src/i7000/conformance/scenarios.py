@@ -124,11 +124,11 @@ SCENARIOS = (
     ),
     Scenario(
         "very-late-reply",
-        "answers that are a second late",
-        "Some answers come a second late.",
+        "answers that are 0.9 s late",
+        "Some answers come 0.9 s late.",
         "It leaves the line silent after a deadline, for longer than any answer can take, before it asks again.",
         ("2.3", "3.2"),
-        _disturbed("late=1:1.0", Belief.MAY),
+        _disturbed("late=1:0.9", Belief.MAY),
     ),
     Scenario(
         "echo",
