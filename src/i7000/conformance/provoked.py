@@ -135,8 +135,8 @@ class Session:
     lines: tuple[Line, ...] = ()
     began: float = 0.0
     now: float = 0.0
-    steps: tuple[Belief, ...] = ()
-    """What a driver makes of the answers of each step."""
+    steps: int = 1
+    """How many steps the scenario has."""
     finished: bool = False
     """Whether all steps were carried out."""
     ended: Ended | None = None
@@ -194,7 +194,7 @@ def judge(session: Session) -> Judgement:
         return Judgement(Verdict.INCONCLUSIVE, reason="the driver asked for no readings")
     if not session.finished:
         step = max(it.step for it in session.given)
-        reason = f"the driver asked too little: step {step + 1} of {len(session.steps)} was not over in time"
+        reason = f"the driver asked too little: step {step + 1} of {session.steps} was not over in time"
         return Judgement(Verdict.INCONCLUSIVE, reason=reason, values=values)
     return Judgement(Verdict.PASS, values=values)
 
@@ -202,8 +202,7 @@ def judge(session: Session) -> Judgement:
 def is_decided(session: Session) -> bool:
     """Return whether waiting changes nothing: a value was wrong, or all values of the last step were reported."""
     beliefs, wrong = _believed(session, 1)
-    steps = [Belief.MAY] * (len(session.steps) - 1) + [Belief.MUST]
-    return bool(wrong) or not _missing(evolve(session, steps=tuple(steps)), beliefs)
+    return bool(wrong) or not _missing(session, beliefs, session.steps - 1)
 
 
 # --- what was believed ------------------------------------------------------------------------------------------------
@@ -338,13 +337,12 @@ def _ago(line: Line, given: Given) -> str:
 # --- what was not -----------------------------------------------------------------------------------------------------
 
 
-def _missing(session: Session, beliefs: _Beliefs) -> list[Finding]:
-    """Return the channels that a driver did not report in a step in which it has to."""
+def _missing(session: Session, beliefs: _Beliefs, first: int = 0) -> list[Finding]:
+    """Return the channels that a driver did not report in a step in which it has to, from a first step on."""
     found = []
-    for step, belief in enumerate(session.steps):
-        if belief is not Belief.MUST:
-            continue
-        given = [it for it in session.given if it.step == step and not _is_orphan(session, it)]
+    must = [it for it in session.given if it.belief is Belief.MUST and not _is_orphan(session, it)]
+    for step in range(first, session.steps):
+        given = [it for it in must if it.step == step]
         for address in dict.fromkeys(it.address for it in given):
             own = [it for it in given if it.address == address]
             for channel in sorted({told.channel for it in own for told in it.told}):
