@@ -177,6 +177,17 @@ def test_no_scenario_begins_after_the_time_is_over(run: Run, monkeypatch: pytest
     assert (told.code, "no time was left: give a longer --max-time" in told.out) == (5, True)
 
 
+def test_a_scenario_is_played_again_while_its_failure_is_doubtful(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    doubtful = Judgement(Verdict.FAIL, (Finding(Kind.WRONG, 1.0, "x"),), "doubtful")
+    judged = iter([doubtful, Judgement(Verdict.PASS), doubtful, doubtful, doubtful])
+    monkeypatch.setattr(provoking, "judge", lambda _: next(judged))
+
+    codes = [run("provoke", "--scenario", "echo", "--patience", "0.3", "--", "true", "{target}").code for _ in range(2)]
+
+    assert codes == [0, 1]
+    assert list(judged) == []
+
+
 # --- drivers that somebody else starts --------------------------------------------------------------------------------
 
 
