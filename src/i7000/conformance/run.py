@@ -15,6 +15,7 @@ from random import Random
 from attrs import evolve
 
 from i7000.conformance.checks import STEPS
+from i7000.conformance.claims import Claims
 from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
@@ -48,6 +49,8 @@ class Options:
     timeout_scale: float = 1.0
     writes: int = 64
     seconds: float | None = None
+    claims: Claims | None = None
+    """The statement of the module; without one, that is not checked."""
 
 
 @frozen
@@ -138,10 +141,28 @@ def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
 
 
 def plan(
-    statements: Iterable[Statement], profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]
+    statements: Iterable[Statement],
+    profile: Profile,
+    protocol: Protocol,
+    allowed: frozenset[Hazard],
+    claims: Claims | None = None,
 ) -> tuple[Planned, ...]:
-    """Return the checks of a run in their order, for a module of a profile."""
-    return tuple(Planned(it, _skip(it, profile, protocol, allowed)) for it in statements)
+    """Return the checks of a run in their order, for a module of a profile.
+
+    Special: what `claims` does not claim is not checked. Without claims, the group ``statement`` is left out.
+    """
+    return tuple(
+        Planned(it, _skip(it, profile, protocol, allowed) or _unclaimed(it, claims))
+        for it in statements
+        if claims is not None or it.group != "statement"
+    )
+
+
+def _unclaimed(statement: Statement, claims: Claims | None) -> Skipped | None:
+    """Return why a check is skipped because the statement of the module does not claim what it is about."""
+    if claims is None or claims.covers(statement):
+        return None
+    return Skipped(SkipReason.NOT_APPLICABLE, "the statement of the module does not claim it")
 
 
 def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]) -> Skipped | None:
@@ -203,7 +224,7 @@ class Run:
 
     def _subject(self, chance: Random) -> Subject:
         scale, writes = self.options.timeout_scale, self.options.writes - self.writes
-        return Subject(self.twin, self.line, scale, chance, self.now or 0.0, self.guard, writes)
+        return Subject(self.twin, self.line, scale, chance, self.now or 0.0, self.guard, writes, self.options.claims)
 
     def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
