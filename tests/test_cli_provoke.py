@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
+from threading import enumerate as threads
 from typing import Any
 
 import pytest
@@ -264,6 +265,8 @@ def test_the_output_of_another_driver_is_followed_on_standard_input(monkeypatch:
 
         monkeypatch.setattr("sys.stdin", Stdin())
         code = main(("provoke", "--scenario", "undisturbed", "--tcp", str(port), "--driver-output", "-"))
+        os.write(writing, b"more\n")  # The thread that reads it ends then.
+        until(lambda: "i7000 driver" not in {it.name for it in threads()})
         os.close(writing)
 
     assert code == 0
