@@ -288,7 +288,12 @@ def test_there_may_be_no_standard_input(monkeypatch: pytest.MonkeyPatch) -> None
 def test_an_output_that_ends_before_the_scenario_is_the_end_of_the_driver(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "fifo"
     os.mkfifo(path)
-    writer = Thread(target=lambda: path.write_bytes(b'{"address": 1, "status": "error"}'))
+
+    def write() -> None:
+        until(lambda: "i7000 driver" in {it.name for it in threads()})
+        path.write_bytes(b'{"address": 1, "status": "error"}')
+
+    writer = Thread(target=write)
     writer.start()
 
     told = run("provoke", "--scenario", "echo", "--tcp", "0", "--driver-output", str(path))
