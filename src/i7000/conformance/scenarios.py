@@ -94,8 +94,8 @@ class Scenario:
     """A model that has it, if the default one has not."""
 
 
-_BEFORE = Step(2)
-_BETWEEN = Step(1)
+_BEFORE = Step(3)
+_BETWEEN = Step(1, "", Belief.MAY)
 _AFTER = Step(2)
 _DCON = frozenset({Protocol.DCON})
 _RTU = frozenset({Protocol.MODBUS_RTU})
@@ -108,7 +108,7 @@ def _disturbed(faults: str, belief: Belief = Belief.NEVER, *, first: int = 1, se
 
 def _sensed(*inputs: Inputs, belief: Belief = Belief.MUST) -> tuple[Step, ...]:
     """Return steps with several inputs, one after the other."""
-    return _BEFORE, *(Step(2, "", belief, it) for it in inputs), _AFTER
+    return _BEFORE, *(Step(3, "", belief, it) for it in inputs), _AFTER
 
 
 SCENARIOS = (
