@@ -27,7 +27,7 @@ MAPS = [
 ROWS = {(row["area"], row["name"]): row for table in MAPS for row in table["rows"]}
 
 
-def rtu(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:  # noqa: ANN401 - fields of `Eeprom`
+def rtu(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:
     """Return the memory of a module that speaks Modbus RTU, with changes."""
     return memory(model, firmware, protocol=Protocol.MODBUS_RTU, **changes)
 
