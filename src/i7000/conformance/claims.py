@@ -105,8 +105,11 @@ class Claims:
             _text_or_null("firmware", document["firmware"]),
             _text_or_null("name", document["name"]),
             protocols[document["protocol"]],
-            *(_texts(name, document[name]) for name in ("commands", "functions", "registers", "types")),
-            readings=tuple(readings.items()),
+            _texts("commands", document["commands"]),
+            _texts("functions", document["functions"]),
+            _texts("registers", document["registers"]),
+            _texts("types", document["types"]),
+            tuple(readings.items()),
         )
 
 

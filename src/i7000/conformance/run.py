@@ -224,7 +224,9 @@ class Run:
 
     def _subject(self, chance: Random) -> Subject:
         scale, writes = self.options.timeout_scale, self.options.writes - self.writes
-        return Subject(self.twin, self.line, scale, chance, self.now or 0.0, self.guard, writes, self.options.claims)
+        now, state = self.now or 0.0, self.twin.state
+        twin = Twin(state.keep(fed_at=now)) if state.ram.protocol is Protocol.MODBUS_RTU else self.twin  # E106
+        return Subject(twin, self.line, scale, chance, now, self.guard, writes, self.options.claims)
 
     def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
