@@ -1,6 +1,5 @@
 """``i7000 provoke``: real drivers on real ports, few scenarios; all others run in virtual time."""
 
-import io
 import json
 import os
 import signal
@@ -10,15 +9,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
+from threading import enumerate as threads
 from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
 
+from i7000 import Model, Profile, Protocol
 from i7000.cli import drivers, main, provoke_report, provoking
 from i7000.conformance import believed
 from i7000.conformance.provoked import Finding, Judgement, Kind, Verdict
 from i7000.conformance.scenarios import SCENARIOS
+from i7000.simulator.faults import Piece
+from i7000.simulator.observed import Observed
 from tests.drivers import fixed_length, number_finder
 from tests.simulation import free_port
 from tests.terminal import Run
@@ -94,8 +97,9 @@ def records(path: Path) -> list[Any]:
     return found
 
 
-def test_a_driver_that_does_nothing_is_inconclusive(run: Run) -> None:
-    told = run("provoke", "--scenario", "echo", "--patience", "0.5", *script("import time; time.sleep(99)"))
+@pytest.mark.parametrize("name", ["echo", "old-firmware"])
+def test_a_driver_that_does_nothing_is_inconclusive(run: Run, name: str) -> None:
+    told = run("provoke", "--scenario", name, "--patience", "0.5", *script("import time; time.sleep(99)"))
 
     assert told.code == 5
     assert told.out.splitlines()[1:] == ["  the driver sent nothing", "1 INCONCLUSIVE"]
@@ -174,6 +178,17 @@ def test_no_scenario_begins_after_the_time_is_over(run: Run, monkeypatch: pytest
     assert (told.code, "no time was left: give a longer --max-time" in told.out) == (5, True)
 
 
+def test_a_scenario_is_played_again_while_its_failure_is_doubtful(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    doubtful = Judgement(Verdict.FAIL, (Finding(Kind.WRONG, 1.0, "x"),), "doubtful")
+    judged = iter([doubtful, Judgement(Verdict.PASS), doubtful, doubtful, doubtful])
+    monkeypatch.setattr(provoking, "judge", lambda _: next(judged))
+
+    codes = [run("provoke", "--scenario", "echo", "--patience", "0.3", "--", "true", "{target}").code for _ in range(2)]
+
+    assert codes == [0, 1]
+    assert list(judged) == []
+
+
 # --- drivers that somebody else starts --------------------------------------------------------------------------------
 
 
@@ -224,8 +239,15 @@ def polling(port: int, write: Any) -> Iterator[None]:
 
 def test_the_output_of_another_driver_is_followed_in_a_file(run: Run, tmp_path: Path) -> None:
     port, path = free_port(), tmp_path / "out"
-    path.write_text("old text\n" * 100)
-    with path.open("wb", buffering=0) as file, polling(port, file.write):
+    emptied: list[bytes] = []
+    path.write_text("old text\n" * 10_000)
+
+    def write(data: bytes) -> None:
+        with path.open("ab" if emptied else "wb") as file:
+            file.write(data)
+        emptied.append(data)
+
+    with polling(port, write):
         told = run("provoke", "--scenario", "undisturbed", "--tcp", str(port), "--driver-output", str(path))
 
     assert (told.code, told.out.splitlines()[-1]) == (0, "1 PASS")
@@ -243,6 +265,8 @@ def test_the_output_of_another_driver_is_followed_on_standard_input(monkeypatch:
 
         monkeypatch.setattr("sys.stdin", Stdin())
         code = main(("provoke", "--scenario", "undisturbed", "--tcp", str(port), "--driver-output", "-"))
+        os.write(writing, b"more\n")  # The thread that reads it ends then.
+        until(lambda: "i7000 driver" not in {it.name for it in threads()})
         os.close(writing)
 
     assert code == 0
@@ -264,7 +288,12 @@ def test_there_may_be_no_standard_input(monkeypatch: pytest.MonkeyPatch) -> None
 def test_an_output_that_ends_before_the_scenario_is_the_end_of_the_driver(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "fifo"
     os.mkfifo(path)
-    writer = Thread(target=lambda: path.write_bytes(b'{"address": 1, "status": "error"}'))
+
+    def write() -> None:
+        until(lambda: "i7000 driver" in {it.name for it in threads()})
+        path.write_bytes(b'{"address": 1, "status": "error"}')
+
+    writer = Thread(target=write)
     writer.start()
 
     told = run("provoke", "--scenario", "echo", "--tcp", "0", "--driver-output", str(path))
@@ -355,14 +384,32 @@ def test_ctrl_c_ends_the_driver_and_leaves_the_report_without_its_end(run: Run, 
         os.kill(int(there.read_text()), 0)
 
 
+def shown(*findings: Finding, exchanges: tuple[Observed, ...] = ()) -> list[str]:
+    result = provoke_report.Result(SCENARIOS[0], Judgement(Verdict.FAIL, findings), 1.0, exchanges)
+    return ["".join(part for part, _ in line) for line in provoke_report.result_lines(result, 7)]
+
+
 def test_a_finding_without_traffic_has_none() -> None:
     finding = Finding(Kind.INVENTED, 1.0, "the module has not answered")
-    result = provoke_report.Result(SCENARIOS[0], Judgement(Verdict.FAIL, (finding, finding)))
 
-    text = io.StringIO()
-    for line in provoke_report.result_lines(result, 7):
-        text.write("".join(part for part, _ in line) + "\n")
+    lines = shown(finding, finding)
 
-    assert result.around(finding) == ()
-    assert "  and 1 more\n" in text.getvalue()
+    assert lines[1:3] == ["  invented value at 1.000 s: the module has not answered", "  and 1 more"]
     assert list(provoke_report.summary([])) == [[("nothing ran", "bold")]]
+
+
+@pytest.mark.parametrize(
+    ("pieces", "arrives"),
+    [
+        ((), "nothing"),
+        ((Piece(b"!01", 0.5), Piece(b"7018\r", 0.6)), None),
+        ((Piece(b"?01\r", 0.5),), r"b'?01\r' at 1.500 s"),
+    ],
+)
+def test_what_arrives_in_place_of_an_answer_is_shown(pieces: tuple[Piece, ...], arrives: str | None) -> None:
+    observed = Observed(1.0, "host", b"$01M\r", Protocol.DCON, Profile(Model.I_7018), b"!017018\r", (), None, pieces)
+    finding = Finding(Kind.WRONG, 1.0, "x", 0, 3)
+
+    lines = shown(finding, exchanges=(observed,))
+
+    assert [line.partition("arrives: ")[2] for line in lines if "arrives" in line] == ([arrives] if arrives else [])

@@ -34,7 +34,7 @@ class Bench:
     """Whether its power can be switched."""
     line: LineSettings = field(factory=LineSettings)
     sources: Sources | None = None
-    stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom  # noqa: E731 - a field
+    stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom
     """What is left of the settings without power."""
     now: float = 0.0
     sent: list[bytes] = field(factory=list)
@@ -43,7 +43,7 @@ class Bench:
     def __attrs_post_init__(self) -> None:
         self.sources = self.sources or default_sources(self.state.eeprom)
 
-    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:  # noqa: ANN401 - what the procedure returns
+    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:
         """Carry out a procedure, and return what it returns."""
         answer: Any = None
         while True:
@@ -84,7 +84,7 @@ class Bench:
         return wire
 
 
-def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:  # noqa: ANN401 - fields of `Eeprom`
+def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:
     """Return the memory of a module that speaks DCON, with changes."""
     made = factory(model, None if firmware is None else Firmware(firmware))
     return evolve(made, **{"protocol": Protocol.DCON, **changes})

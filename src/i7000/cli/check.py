@@ -45,6 +45,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     report: Annotated[
         Texts, Parameter(help="Write a report: json=FILE, html=FILE, junit=FILE, pytest=FILE or pcap=FILE; repeat it.")
     ] = (),
+    statement: Annotated[
+        str | None, Parameter(help="A file of i7000 statement: check the module against it, both ways.")
+    ] = None,
     snapshot: Annotated[
         str | None,
         Parameter(
@@ -63,7 +66,7 @@ def check(  # noqa: PLR0913 - each of them is an option
     one: OneModule = DEFAULT_ONE,
     module: Module = UNKNOWN,
 ) -> int:
-    """Hold a module against the protocol: which requirement of which section it fails, with the bytes.
+    """Check a module against the protocol: which requirement of which section it fails, with the bytes.
 
     Unless you allow more, only what changes nothing is sent: every frame passes a guard that refuses what a module
     could take for anything else. With `--allow write` settings are changed and restored; the settings of before are in
@@ -111,6 +114,7 @@ def check(  # noqa: PLR0913 - each of them is an option
         baseline=baseline,
         baseline_update=baseline_update,
         reports=report,
+        statement=statement,
         snapshot=snapshot,
         seed=seed,
         max_time=max_time,

@@ -15,6 +15,7 @@ from random import Random
 from attrs import evolve
 
 from i7000.conformance.checks import STEPS
+from i7000.conformance.claims import Claims
 from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
@@ -22,7 +23,7 @@ from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Difference, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom
-from i7000.errors import InvalidValueError
+from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
 from i7000.host.procedures import BytesHeard, Procedure, Result, Tell
@@ -40,7 +41,7 @@ class Options:
     """How a run is carried out.
 
     Shape: `writes` is the most frames that may change the EEPROM, `seconds` the longest time after which no check is
-        begun; None is no limit.
+        begun; None means any time.
     """
 
     allowed: frozenset[Hazard]
@@ -48,6 +49,8 @@ class Options:
     timeout_scale: float = 1.0
     writes: int = 64
     seconds: float | None = None
+    claims: Claims | None = None
+    """The statement of the module; without one, that is not checked."""
 
 
 @frozen
@@ -138,10 +141,28 @@ def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
 
 
 def plan(
-    statements: Iterable[Statement], profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]
+    statements: Iterable[Statement],
+    profile: Profile,
+    protocol: Protocol,
+    allowed: frozenset[Hazard],
+    claims: Claims | None = None,
 ) -> tuple[Planned, ...]:
-    """Return the checks of a run in their order, for a module of a profile."""
-    return tuple(Planned(it, _skip(it, profile, protocol, allowed)) for it in statements)
+    """Return the checks of a run in their order, for a module of a profile.
+
+    Special: what `claims` does not claim is not checked. Without claims, the group ``statement`` is left out.
+    """
+    return tuple(
+        Planned(it, _skip(it, profile, protocol, allowed) or _unclaimed(it, claims))
+        for it in statements
+        if claims is not None or it.group != "statement"
+    )
+
+
+def _unclaimed(statement: Statement, claims: Claims | None) -> Skipped | None:
+    """Return why a check is skipped because the statement of the module does not claim what it is about."""
+    if claims is None or claims.covers(statement):
+        return None
+    return Skipped(SkipReason.NOT_APPLICABLE, "the statement of the module does not claim it")
 
 
 def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]) -> Skipped | None:
@@ -199,15 +220,15 @@ class Run:
         yield from first.end_line()
         self.guard = first.guard
         for group in _halves(self.planned):
-            yield from self._checks(group)
+            yield from self.checks(group)
 
     def _subject(self, chance: Random) -> Subject:
         scale, writes = self.options.timeout_scale, self.options.writes - self.writes
         now, state = self.now or 0.0, self.twin.state
         twin = Twin(state.keep(fed_at=now)) if state.ram.protocol is Protocol.MODBUS_RTU else self.twin  # E106
-        return Subject(twin, self.line, scale, chance, now, self.guard, writes)
+        return Subject(twin, self.line, scale, chance, now, self.guard, writes, self.options.claims)
 
-    def _checks(self, group: Sequence[Planned]) -> Procedure[None]:
+    def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
         found = []
         for one in group:
@@ -258,12 +279,17 @@ class Run:
         answer: object = None
         started = self.now
         steps = STEPS[statement.id](subject)
+        refusal: I7000Error | None = None
         verdict, reason = Verdict.PASS, None
         try:
             while True:
-                step = steps.send(answer)
+                step = steps.throw(refusal) if refusal else steps.send(answer)
+                refusal = None
                 self.place = subject.twin
-                answer = yield step
+                try:
+                    answer = yield step
+                except I7000Error as error:
+                    answer, refusal = None, error
                 heard = heard or _is_evidence(answer)
                 if isinstance(answer, BytesHeard):
                     self.now = answer.now

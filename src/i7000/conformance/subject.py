@@ -6,7 +6,7 @@ plain read that every module answers: only its answer shows that the module was 
 
 from collections.abc import Iterable
 from random import Random
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import define, field
 
@@ -20,6 +20,9 @@ from i7000.message import Query, Response
 from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
+
+if TYPE_CHECKING:
+    from i7000.conformance.claims import Claims
 
 __all__ = ["Subject"]
 
@@ -55,6 +58,8 @@ class Subject:
     """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
+    claims: "Claims | None" = None
+    """The statement of the module, if one was given."""
 
     @property
     def protocol(self) -> Protocol:
