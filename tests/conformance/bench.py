@@ -34,16 +34,17 @@ class Bench:
     """Whether its power can be switched."""
     line: LineSettings = field(factory=LineSettings)
     sources: Sources | None = None
-    stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom  # noqa: E731 - a field
+    connected: Sources = field(init=False)
+    stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom
     """What is left of the settings without power."""
     now: float = 0.0
     sent: list[bytes] = field(factory=list)
     text: bytes = b""
 
     def __attrs_post_init__(self) -> None:
-        self.sources = self.sources or default_sources(self.state.eeprom)
+        self.connected = self.sources or default_sources(self.state.eeprom)
 
-    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:  # noqa: ANN401 - what the procedure returns
+    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:
         """Carry out a procedure, and return what it returns."""
         answer: Any = None
         while True:
@@ -80,11 +81,11 @@ class Bench:
         return [frame for frame in frames if isinstance(frame, bytes)]
 
     def _answer(self, frame: bytes) -> bytes | None:
-        self.state, wire = self.firmware(self.state, frame, self.sources.at(self.now), self.now)
+        self.state, wire = self.firmware(self.state, frame, self.connected.at(self.now), self.now)
         return wire
 
 
-def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:  # noqa: ANN401 - fields of `Eeprom`
+def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:
     """Return the memory of a module that speaks DCON, with changes."""
     made = factory(model, None if firmware is None else Firmware(firmware))
     return evolve(made, **{"protocol": Protocol.DCON, **changes})
@@ -96,12 +97,11 @@ def checked(
     firmware: Step = step,
     *,
     allowed: frozenset[Hazard] = ALL,
-    power: bool = True,
     bench: Bench | None = None,
 ) -> dict[str, CheckResult]:
     """Return what became of the selected checks of a module, by their ids."""
     state = power_on(eeprom, now=0.0)
-    bench = bench or Bench(state, firmware, power, state.ram.line_settings)
+    bench = bench or Bench(state, firmware, line=state.ram.line_settings)
     wanted = selected(STATEMENTS, select)
     statements = [it for it in STATEMENTS.values() if it.id in wanted]
     planned = plan(statements, state.profile, eeprom.protocol, allowed)

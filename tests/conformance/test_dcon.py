@@ -1,8 +1,10 @@
 """The checks of the DCON commands: every model passes them, and each of them finds a firmware at fault."""
 
 import json
+from collections.abc import Mapping
 from fnmatch import fnmatchcase
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import pytest
 from attrs import evolve
@@ -146,7 +148,7 @@ def sets_all_types(state: State, frame: bytes, signals: Signals, now: float) -> 
     return after, wire
 
 
-def answers_all(frame: bytes, wire: bytes | None) -> bytes | None:
+def answers_all(_: bytes, wire: bytes | None) -> bytes | None:
     return b"!01\r" if wire is None else wire
 
 
@@ -156,7 +158,7 @@ class Case(NamedTuple):
     firmware: Step
     model: Model
     found: str
-    changes: dict[str, object] = {}
+    changes: Mapping[str, Any] = MappingProxyType({})
     """Settings of the module."""
     sampled: bool = False
 
@@ -177,7 +179,8 @@ CASES = {
         saying(rb"(?<=[!>])01", b"02"), R, " ".join(it for it in READS.split() if it not in OUT), sampled=True
     ),
     "answers are in lower case": Case(
-        answering(lambda frame, wire: wire and (wire if b"M" in frame else wire.lower())), R, "dcon/2.10/reply dcon/2.14/reply dcon/2.16/reply",
+        answering(lambda frame, wire: wire and (wire if b"M" in frame else wire.lower())), R,
+        "dcon/2.10/reply dcon/2.14/reply dcon/2.16/reply",
         {"channel_mask": 0xFA, "type_codes": (TypeCode.K,) * 8},
     ),
     "what follows a command is ignored": Case(
@@ -210,7 +213,8 @@ CASES = {
     "settings are refused": Case(refusing(rb"%01|\$01[579].|\$01A.|~01[CO3].|~01EO."), R, f"{SETS} dcon/2.39/set"),
     "the mask begins with the last channel": Case(
         replaced(rb"^\$0157F\r", rb"$015FE\r"), R, "dcon/2.13/set"),
-    "the mask has no channel 9 but 10": Case(replaced(rb"^\$0150(.)FF\r", rb"$01503FF\r"), Model.M_7019Z, "dcon/2.13/set-n1"),
+    "the mask has no channel 9 but 10": Case(replaced(rb"^\$0150(.)FF\r", rb"$01503FF\r"), Model.M_7019Z,
+        "dcon/2.13/set-n1"),
     "a type is that of all channels": Case(sets_all_types, R, "dcon/2.15/set"),
     "an undefined type is taken for 08": Case(replaced(b"R30", b"R08"), R, "dcon/2.15/set-n1"),
     "the sign of the offset is lost": Case(replaced(rb"^\$019-", rb"$019+"), R, "dcon/2.18/set"),
@@ -273,7 +277,7 @@ def test_every_check_finds_some_firmware() -> None:
     ("firmware", "told"),
     [
         pytest.param(step, "silence", id="silence"),
-        pytest.param(answering(lambda frame, wire: wire or b"?01\r"), "?01", id="refusal"),
+        pytest.param(answering(lambda _, wire: wire or b"?01\r"), "?01", id="refusal"),
     ],
 )
 def test_the_way_of_refusal_is_told(firmware: Step, told: str) -> None:  # fmt: skip

@@ -63,18 +63,15 @@ def _not_taken(module: Subject, tried: dcon.SetConfiguration, old: dcon.SetConfi
 
 
 def _written_back(module: Subject, tried: dcon.SetConfiguration, old: dcon.SetConfiguration) -> Procedure[None]:
-    """Write the configuration at the settings that the module should have, then at those that were tried."""
-    right, line = module.twin, module.line
-    for taken in (old, tried):
-        state = right.state.keep(line_settings=taken.line_settings, checksum=taken.report_settings.checksum)
-        module.twin = Twin(state)
+    """Write the configuration at the settings that were tried, then at its own, which the module has at the end."""
+    state = module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings)
+    for taken in (tried, old):
+        module.twin = Twin(state.keep(line_settings=taken.line_settings, checksum=taken.report_settings.checksum))
         yield from module.tune(taken.line_settings)
         if dcon.SoftInit.availability not in module.profile.refused:
             for command in (dcon.SetSoftInitTimeout(module.address, _WINDOW), dcon.SoftInit(module.address)):
                 yield from module.send(module.wire(command))
         yield from module.send(module.wire(old))
-    module.twin = right
-    yield from module.tune(line)
 
 
 # --- the address ------------------------------------------------------------------------------------------------------
@@ -128,9 +125,6 @@ def _by_soft_init(change: Changing, module: Subject) -> Procedure[None]:
         yield from module.expect(dcon.SetSoftInitTimeout(module.address, 0))
     except Reason:
         yield from _written_back(module, change(old), old)
-        module.twin = Twin(
-            module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings)
-        )
         raise
 
 
