@@ -156,6 +156,14 @@ def test_a_damaged_file_is_judged_as_far_as_it_goes(run: Run, tmp_path: Path) ->
     assert (ids(records), records.records[-1]["damaged"]) == ([], 1)
 
 
+def test_of_a_file_full_of_damage_the_first_places_are_named(run: Run, tmp_path: Path) -> None:
+    began = text(Start("2026-11-30T12:00:00+00:00", "i7000 proxy", "0", "COM3"))
+    told = run("listen", log(tmp_path, "\n".join([began, *["damage"] * 100]).encode()), "--judge")
+
+    assert (told.code, len(told.err.splitlines())) == (5, 20)
+    assert "damaged: 101 places of the file" in told.out
+
+
 def test_noise_is_counted(run: Run, tmp_path: Path) -> None:
     told = run("listen", recorded(tmp_path, (1.0, b"$012\r"), (1.1, b"!01050600\r"), (3.0, b"\xff\xfe")), "--judge")
 

@@ -1,6 +1,5 @@
 """``i7000 provoke``: real drivers on real ports, few scenarios; all others run in virtual time."""
 
-import io
 import json
 import os
 import signal
@@ -15,10 +14,13 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
+from i7000 import Model, Profile, Protocol
 from i7000.cli import drivers, main, provoke_report, provoking
 from i7000.conformance import believed
 from i7000.conformance.provoked import Finding, Judgement, Kind, Verdict
 from i7000.conformance.scenarios import SCENARIOS
+from i7000.simulator.faults import Piece
+from i7000.simulator.observed import Observed
 from tests.drivers import fixed_length, number_finder
 from tests.simulation import free_port
 from tests.terminal import Run
@@ -94,8 +96,9 @@ def records(path: Path) -> list[Any]:
     return found
 
 
-def test_a_driver_that_does_nothing_is_inconclusive(run: Run) -> None:
-    told = run("provoke", "--scenario", "echo", "--patience", "0.5", *script("import time; time.sleep(99)"))
+@pytest.mark.parametrize("name", ["echo", "old-firmware"])
+def test_a_driver_that_does_nothing_is_inconclusive(run: Run, name: str) -> None:
+    told = run("provoke", "--scenario", name, "--patience", "0.5", *script("import time; time.sleep(99)"))
 
     assert told.code == 5
     assert told.out.splitlines()[1:] == ["  the driver sent nothing", "1 INCONCLUSIVE"]
@@ -224,8 +227,15 @@ def polling(port: int, write: Any) -> Iterator[None]:
 
 def test_the_output_of_another_driver_is_followed_in_a_file(run: Run, tmp_path: Path) -> None:
     port, path = free_port(), tmp_path / "out"
-    path.write_text("old text\n" * 100)
-    with path.open("wb", buffering=0) as file, polling(port, file.write):
+    emptied: list[bytes] = []
+    path.write_text("old text\n" * 10_000)
+
+    def write(data: bytes) -> None:
+        with path.open("ab" if emptied else "wb") as file:
+            file.write(data)
+        emptied.append(data)
+
+    with polling(port, write):
         told = run("provoke", "--scenario", "undisturbed", "--tcp", str(port), "--driver-output", str(path))
 
     assert (told.code, told.out.splitlines()[-1]) == (0, "1 PASS")
@@ -355,14 +365,32 @@ def test_ctrl_c_ends_the_driver_and_leaves_the_report_without_its_end(run: Run, 
         os.kill(int(there.read_text()), 0)
 
 
+def shown(*findings: Finding, exchanges: tuple[Observed, ...] = ()) -> list[str]:
+    result = provoke_report.Result(SCENARIOS[0], Judgement(Verdict.FAIL, findings), 1.0, exchanges)
+    return ["".join(part for part, _ in line) for line in provoke_report.result_lines(result, 7)]
+
+
 def test_a_finding_without_traffic_has_none() -> None:
     finding = Finding(Kind.INVENTED, 1.0, "the module has not answered")
-    result = provoke_report.Result(SCENARIOS[0], Judgement(Verdict.FAIL, (finding, finding)))
 
-    text = io.StringIO()
-    for line in provoke_report.result_lines(result, 7):
-        text.write("".join(part for part, _ in line) + "\n")
+    lines = shown(finding, finding)
 
-    assert result.around(finding) == ()
-    assert "  and 1 more\n" in text.getvalue()
+    assert lines[1:3] == ["  invented value at 1.000 s: the module has not answered", "  and 1 more"]
     assert list(provoke_report.summary([])) == [[("nothing ran", "bold")]]
+
+
+@pytest.mark.parametrize(
+    ("pieces", "arrives"),
+    [
+        ((), "nothing"),
+        ((Piece(b"!01", 0.5), Piece(b"7018\r", 0.6)), None),
+        ((Piece(b"?01\r", 0.5),), r"b'?01\r' at 1.500 s"),
+    ],
+)
+def test_what_arrives_in_place_of_an_answer_is_shown(pieces: tuple[Piece, ...], arrives: str | None) -> None:
+    observed = Observed(1.0, "host", b"$01M\r", Protocol.DCON, Profile(Model.I_7018), b"!017018\r", (), None, pieces)
+    finding = Finding(Kind.WRONG, 1.0, "x", 0, 3)
+
+    lines = shown(finding, exchanges=(observed,))
+
+    assert [line.partition("arrives: ")[2] for line in lines if "arrives" in line] == ([arrives] if arrives else [])

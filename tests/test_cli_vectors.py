@@ -338,6 +338,7 @@ def test_what_was_read_before_the_end_is_received_first() -> None:
         (("--report", "json", "--", "x"), "--report json: write json=FILE or junit=FILE"),
         (("--report", "json=", "--", "x"), "--report json=: write json=FILE or junit=FILE"),
         (("--report", "json=/dev/null,json=b", "--", "x"), "--report json is given twice"),
+        (("--report", "json=a,junit=./a", "--", "x"), "--report junit=./a: give another file than for json"),
         (("--report", "json=/no/such/folder/a", "--", "x"), "/no/such/folder/a: No such file or directory"),
     ],
 )

@@ -93,6 +93,7 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
         "docs/find_a_module.md",
         "docs/judge_a_line.md",
         "docs/port_the_codec.md",
+        "docs/test_a_driver.md",
     ],
 )
 def test_text_keeps_to_the_line_width_of_the_code(name: str) -> None:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from i7000 import ArgumentError, InvalidValueError, Model, Profile, Protocol, dcon, modbus
 from i7000.conformance.judge import EEPROM_WRITES, Judge, Level, Rule, Side, judge, verdict
+from i7000.conformance.judge_frames import STORING
 from i7000.device import factory, power_on
 from i7000.dissect import Knowledge, Known, Line, hear_frame
 from i7000.dissect.timing import Times
@@ -475,6 +476,13 @@ def test_what_is_wrong_with_a_command_for_a_module_that_is_known(known: Known, w
     assert rules(findings) == [rule]
 
 
+@pytest.mark.parametrize(("wire", "address"), [(b"$0a2\r", 0x0A), (b"$0x2\r", None), (b"$0\r", None)])
+def test_the_address_of_a_command_in_lower_case_is_named(wire: bytes, address: int | None) -> None:
+    _, (finding,) = judged_frames((0, wire))
+
+    assert finding.address == address
+
+
 # --- EEPROM -----------------------------------------------------------------------------------------------------------
 
 
@@ -484,6 +492,26 @@ def test_the_clock_and_the_logger_are_not_the_eeprom() -> None:
     scene: Frames = [(0.3, it) for _ in range(2 * EEPROM_WRITES) for it in (index, index)]
 
     assert Rule.EEPROM_LOOP not in rules(judged_frames(*scene)[1])
+
+
+def test_every_command_that_sets_something_for_good_counts_as_a_write() -> None:
+    passing = {dcon.SetCjcUpdate, dcon.SetCalibrationEnabled, dcon.SetSoftInitTimeout, modbus.SetCjcUpdate}
+    setting = {
+        kind
+        for kind in (*dcon.COMMANDS, *modbus.REQUESTS)
+        if kind.__name__.startswith(("Set", "Calibrate", "Reload", "Reset"))
+    }
+
+    assert setting - passing == STORING
+
+
+@pytest.mark.parametrize(("register", "count"), [(484, 1), (878, 0)])
+def test_a_write_to_a_register_counts_if_it_is_a_setting(register: int, count: int) -> None:
+    write = modbus.encode(modbus.WriteSingleRegister(1, register, 1), PROFILE)
+
+    state, _ = judged_frames((0, write), (SOON, write))
+
+    assert len(state.writes.get(1, ())) == count
 
 
 def test_writes_that_are_minutes_apart_are_no_loop() -> None:

@@ -29,8 +29,8 @@ NOT_CHANGED = frozenset({"cast", "len", "isinstance"})
 class CodeMutant(Mutant):
     """A Python file with one node replaced."""
 
-    def __init__(self, file: str, module: cst.Module, old: cst.CSTNode, new: cst.CSTNode) -> None:
-        super().__init__(file, module.code)
+    def __init__(self, file: str, text: str, module: cst.Module, old: cst.CSTNode, new: cst.CSTNode) -> None:
+        super().__init__(file, text)
         self._module, self._old, self._new = module, old, new
 
     @cached_property
@@ -46,7 +46,7 @@ def code_mutants(file: str, text: str) -> list[CodeMutant]:
     module = cst.parse_module(text)
     visitor = _Visitor()
     module.visit(visitor)
-    return [CodeMutant(file, module, old, new) for old, new in visitor.found]
+    return [CodeMutant(file, text, module, old, new) for old, new in visitor.found]
 
 
 def is_different(mutant: Mutant) -> bool:

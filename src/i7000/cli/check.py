@@ -63,7 +63,7 @@ def check(  # noqa: PLR0913 - each of them is an option
     one: OneModule = DEFAULT_ONE,
     module: Module = UNKNOWN,
 ) -> int:
-    """Hold a module against the protocol: which requirement of which section it fails, with the bytes.
+    """Check a module against the protocol: which requirement of which section it fails, with the bytes.
 
     Unless you allow more, only what changes nothing is sent: every frame passes a guard that refuses what a module
     could take for anything else. With `--allow write` settings are changed and restored; the settings of before are in

@@ -54,7 +54,7 @@ def run(asked: Asked, wishes: Wishes) -> int:
     def body(open_line: OpenLine) -> int:
         return _Checking(asked, wishes, settings, printer, wire).examine(open_line)
 
-    return at_port(asked, body, wire.observe, allowed=settings.options.allowed)
+    return at_port(asked, body, wire.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
 
 
 @define
@@ -82,7 +82,7 @@ class _Checking:
         self._width = 0
 
     def examine(self, open_line: OpenLine) -> int:
-        """Ask the module what it is, check it, restore it, and tell the end."""
+        """Check the module: ask what it is, carry out the plan, and restore it."""
         there = reach(open_line, self._asked, self._printer.note)
         before = open_line.run(snapshot(there.address, there.profile, there.protocol))
         if not before.settings:
@@ -117,7 +117,7 @@ class _Checking:
         self._printer.note(f"the settings of {there.words} are in {path}")
 
     def _estimate(self, one: Run, eeprom: Eeprom) -> None:
-        """Say how long the run will take: as long as on a simulated module, in virtual time."""
+        """Report how long the run will take: as long as on a simulated module, in virtual time."""
         if self._asked.target.startswith(_SIMULATED):
             return
         from i7000.link import Line as PortLine  # noqa: PLC0415 - a dry run needs a line of its own

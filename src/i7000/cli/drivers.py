@@ -136,12 +136,13 @@ async def followed(output: str, clock: Callable[[], float]) -> AsyncIterator[Dri
 
     def follow() -> None:
         with suppress(RuntimeError, OSError), os.fdopen(descriptor, "rb", 0):  # The loop or the terminal is gone.
-            while not stopped.is_set():
+            while True:
                 data = os.read(descriptor, _AT_ONCE)
                 if data:
                     loop.call_soon_threadsafe(driver.feed, data)
                 elif grows:
-                    stopped.wait(_PAUSE)
+                    if stopped.wait(_PAUSE):
+                        return
                     if os.fstat(descriptor).st_size < os.lseek(descriptor, 0, os.SEEK_CUR):
                         os.lseek(descriptor, 0, os.SEEK_SET)  # It was emptied, as a shell does that writes to it.
                 else:

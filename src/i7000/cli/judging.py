@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from i7000 import __version__, describe
+from i7000 import __version__, describe, spec
 from i7000.cli.judge_schema import SCHEMA_VERSION
 from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Missing, Read, stamped
@@ -34,15 +34,13 @@ class Judging:
     def begin(self, target: str) -> None:
         """Print the first record, for programs."""
         if self._printer.json:
-            from i7000.conformance.records import spec_digest  # noqa: PLC0415 - it is not needed for people
-
             self._write(
                 {
                     "record": "run-start",
                     "schema_version": SCHEMA_VERSION,
                     "program": "i7000 listen --judge",
                     "version": __version__,
-                    "spec_sha256": spec_digest(),
+                    "spec_sha256": spec.digest(),
                     "target": target,
                     "timeout": self._state.bound,
                 }
@@ -52,7 +50,8 @@ class Judging:
         """Judge what was read, and print the findings."""
         if read.missing is Missing.DAMAGE:
             self._damaged += 1
-            self._printer.error(f"{read.text or f'packet {read.line}'}: {read.note}")
+            if self._damaged <= _MOST_NAMED:
+                self._printer.error(f"{read.text or f'packet {read.line}'}: {read.note}")
         if read.heard is None or read.knowledge is None:
             return
         times = read.times or (stamped(read.time) if read.time else None)
@@ -106,6 +105,8 @@ def _record(finding: Finding, read: Read) -> dict[str, Any]:
 
 
 _INDENT = "     "
+_MOST_NAMED = 20
+"""The places of a damaged file that are named."""
 
 
 def _lines(finding: Finding, read: Read) -> Iterator[Line]:

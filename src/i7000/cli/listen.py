@@ -12,7 +12,7 @@ from i7000.cli.decode import Input, reads_of
 from i7000.cli.listening import Listening, run, show
 from i7000.cli.message import DCON, MODBUS
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module, Texts, address_of
-from i7000.cli.port import DEFAULT_LINE, LineOptions, Target
+from i7000.cli.port import DEFAULT_LINE, LineOptions
 from i7000.cli.recorded import NOWHERE, RecordOptions
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError, near
@@ -52,7 +52,13 @@ NO_JUDGE = JudgeOptions()
 
 
 def listen(  # noqa: PLR0913 - each of them is an option
-    target: Target | None = None,
+    target: Annotated[
+        str | None,
+        Parameter(
+            help="The port: a device such as /dev/ttyUSB0 or COM3, a URL of pyserial such as rfc2217://host:port, or"
+            " exec:COMMAND for a program; or a file: a recording, a capture (pcap, pcapng) or a log."
+        ),
+    ] = None,
     /,
     *,
     address: Annotated[Texts, Parameter(help="Show only the module at this address. Example: --address 2.")] = (),
@@ -62,7 +68,10 @@ def listen(  # noqa: PLR0913 - each of them is an option
     ] = "auto",
     seconds: Annotated[float | None, Parameter(help="Stop after so many seconds; without it, at Ctrl-C.")] = None,
     json: Json = False,
-    schema: Annotated[bool, Parameter(help="Print the JSON Schema of --record and exit.", negative="")] = False,
+    schema: Annotated[
+        bool,
+        Parameter(help="Print the JSON Schema of --record and exit; with --judge, that of its --json.", negative=""),
+    ] = False,
     judging: JudgeOptions = NO_JUDGE,
     recording: RecordOptions = NOWHERE,
     line: LineOptions = DEFAULT_LINE,

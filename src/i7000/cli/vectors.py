@@ -154,6 +154,8 @@ def _report_paths(report: Sequence[str]) -> dict[str, Path]:
             raise UsageError(f"--report {part}: write {' or '.join(f'{kind}=FILE' for kind in _KINDS)}")
         if kind in found:
             raise UsageError(f"--report {kind} is given twice")
+        if Path(name) in found.values():
+            raise UsageError(f"--report {part}: give another file than for {next(iter(found))}")
         found[kind] = Path(name)
     return found
 

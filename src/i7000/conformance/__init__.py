@@ -1,8 +1,8 @@
 """Conformance: what is required of a module or a driver, and whether it does it; without I/O and without a clock.
 
 A check is a statement of ``spec/checks`` and the steps of `checks` that test it. `Subject` is the module under test
-with its twin, the device model that has the same settings: it tells which answers are allowed. `run` carries out a plan
-of checks; `settle` restores the module. Nothing is sent but through the guard, which refuses what is not allowed.
+with its twin, the device model that has the same settings: it defines which answers are allowed. `run` carries out a
+plan of checks; `settle` restores the module. Nothing is sent but through the guard, which refuses what is not allowed.
 Parts: `hazard` classifies what a command can do, `guard` what bytes can do. `statement` has the requirements, `checks`
 the steps, `oracle` and `subject` what they see of a module. `verdict` is what becomes of a check, `records` a report.
 """

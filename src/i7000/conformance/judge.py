@@ -48,7 +48,7 @@ def judge(
         that is unknown.
     Errors: `ArgumentError`.
 
-    >>> from i7000.dissect import hear_frame
+    >>> from i7000.dissect import Line, hear_frame
     >>> line, heard = hear_frame(Line(), b"$01m\r", Protocol.DCON)
     >>> state, (finding,) = judge(Judge(), heard, line.knowledge)
     >>> finding.rule.id, finding.what
@@ -139,12 +139,12 @@ class _Step:
     def of_driver(self, knowledge: Knowledge) -> None:
         """Judge a frame of the driver."""
         heard, state = self.heard, self.state
-        address = heard.address
+        address = _meant_address(heard) if heard.address is None else heard.address
         self._place = Side.DRIVER, address
         broken = driver_broken(heard, knowledge.of(address).known)
         if broken is not None:
             self._find(broken.rule, broken.what, address)
-        asked = self._asked(broken)
+        asked = self._asked(address, broken)
         self._judge_pauses(address)
         self._judge_turn(address)
         self._judge_gaps(Rule.DRIVER_GAP_BEFORE, Rule.DRIVER_GAP_WITHIN, address)
@@ -156,7 +156,7 @@ class _Step:
             "late": False,
         }
 
-    def _asked(self, broken: Broken | None) -> Asked:
+    def _asked(self, address: int | None, broken: Broken | None) -> Asked:
         """Return the frame as a command, and begin the pause after it."""
         heard = self.heard
         faulty = broken is not None and broken.rule in (*_ANSWERABLE, Rule.NO_COMMAND)
@@ -175,7 +175,7 @@ class _Step:
                 rule = Rule.ASK_AFTER_MODBUS_BROADCAST if to_all else Rule.ASK_AFTER_BROADCAST
         broken_rule = broken and broken.rule
         asked = Asked(
-            heard.place, heard.wire, heard.protocol, heard.address, self.times, seconds, faulty, broken_rule, silent
+            heard.place, heard.wire, heard.protocol, address, self.times, seconds, faulty, broken_rule, silent
         )
         if seconds:
             self._pause = Pause(rule, asked, seconds, name)
@@ -327,6 +327,15 @@ class _Step:
         longest = silence + (LUMP if state.collecting else 0.0)
         if times.gap > longest:
             self._brief(within, times.gap, f"a silence of {_time(times.gap)}: {_time(silence)} ends a frame", address)
+
+
+def _meant_address(heard: Heard) -> int | None:
+    """Return the address of a DCON command whose digits may be in lower case; None if it has none."""
+    digits = heard.wire[1:3]
+    return int(digits, 16) if len(digits) == len("AA") and _HEX.issuperset(digits) else None
+
+
+_HEX = frozenset(b"0123456789ABCDEFabcdef")
 
 
 def _time(seconds: float) -> str:

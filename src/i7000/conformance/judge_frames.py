@@ -19,7 +19,7 @@ from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
 
-__all__ = ["Broken", "answers", "driver_broken", "duty_after", "module_broken", "resembles", "writes_eeprom"]
+__all__ = ["STORING", "Broken", "answers", "driver_broken", "duty_after", "module_broken", "resembles", "writes_eeprom"]
 
 _RTU = Protocol.MODBUS_RTU
 
@@ -235,7 +235,7 @@ def duty_after(meaning: Meaning) -> tuple[float, bool]:
 
 # --- EEPROM -----------------------------------------------------------------------------------------------------------
 
-_STORING: frozenset[type[Any]] = frozenset((
+STORING: frozenset[type[Any]] = frozenset((
     dcon.SetConfiguration, dcon.SetChannelMask, dcon.SetChannelTypeCode, dcon.SetCjcOffset, dcon.SetProtocol,
     dcon.SetCjcEnabled, dcon.SetModuleName, dcon.ResetHostWatchdogStatus, dcon.SetHostWatchdogTimeout,
     dcon.SetOpenWireDetection, dcon.SetConnectingMode, dcon.CalibrateSpan, dcon.CalibrateZero,
@@ -254,7 +254,7 @@ def writes_eeprom(meaning: Meaning) -> bool:
     message: Any = meaning.message
     if isinstance(message, _WRITES):
         return not _volatile().issuperset(item.number for item in meaning.items)
-    return type(message) in _STORING
+    return type(message) in STORING
 
 
 @cache

@@ -1,6 +1,6 @@
 """A report read again: its checks, each with the traffic of it, decoded.
 
-Laws: whatever a file holds, `read_report` raises nothing but `ReportError` for one that is no report at all; what is
+Laws: whatever a file holds, `read_report` raises nothing but `ReportError` for one that is not a report; what is
 wrong with it otherwise is in `Report.problems`.
 """
 
@@ -37,7 +37,7 @@ class Frame:
     sent: bool
     wire: bytes
     words: str
-    """What they mean, in a line; what is wrong with them, if they are no frame."""
+    """What they mean, in a line; what is wrong with them, if they are not a frame."""
 
 
 @frozen
@@ -109,7 +109,7 @@ class _Records:
         record = _object(text)
         if self.start is None:
             if record is None or record.get("record") != "run-start" or record.get("schema_version") != SCHEMA_VERSION:
-                raise ReportError("this is not a report of i7000 check: the first line is no run-start")
+                raise ReportError("this is not a report of i7000 check: it does not begin with a run-start")
             self.start = record
         elif self.end is not None:
             self.problems.append(f"line {number}: after the end")

@@ -41,7 +41,7 @@ class Statement:
 
     Shape: `hazards` are the classes of what the check sends beside plain reads. `command`, `function` and `register`
         name what the module must have, as in ``spec/tables`` (a register as ``AREA/NAME``); `models` are those that the
-        statement is about. None means that nothing more is asked for. `needs` are checks that must have passed before.
+        statement is about. None means that nothing more is needed. `needs` are checks that must have passed before.
     """
 
     id: str

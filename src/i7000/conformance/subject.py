@@ -11,8 +11,6 @@ from typing import Any, TypeVar
 from attrs import define, field
 
 from i7000 import dcon, modbus
-from i7000.conformance.guard import Guard
-from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
@@ -29,7 +27,6 @@ _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
-_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
 
@@ -48,8 +45,6 @@ class Subject:
     chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
     now: float = 0.0
     """The time of the line at the end of the last step."""
-    guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
-    """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
@@ -112,8 +107,6 @@ class Subject:
         Shape: pieces of a frame follow each other without a pause, or after one of so many seconds.
         """
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
-        for _, wire in parts:
-            self._admit(wire)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
@@ -121,16 +114,11 @@ class Subject:
         self.now = heard.now
         return heard
 
-    def _admit(self, wire: bytes) -> None:
-        """Let the guard see bytes, and count those with which a module would change its EEPROM.
-
-        Errors: `GuardError`; `Skipped` if all writes of the run are used up.
-        """
-        self.guard, hazards = self.guard.judged(wire, self.line)
-        if hazards & _STORED:
-            self._count(self.twin.hear(wire, self.now)[0])
-
     def _count(self, after: Twin) -> None:
+        """Count a frame with which the module should change its EEPROM.
+
+        Errors: `Skipped` if all writes of the run are used up.
+        """
         if after.state.eeprom != self.twin.state.eeprom:
             self.reserve(1)
             self.writes_left -= 1

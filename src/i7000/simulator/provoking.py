@@ -17,7 +17,6 @@ from i7000.device import Eeprom, Signal
 from i7000.dissect import Knowledge, Known, Meaning, hear_frame
 from i7000.dissect import Line as Listener
 from i7000.errors import Noise
-from i7000.fields import Status
 from i7000.simulator.faults import Faults
 from i7000.simulator.observed import Observed
 from i7000.simulator.sources import OPEN, SAMPLES_A_SECOND, Fixed, Ramp, Source, Sources
@@ -126,18 +125,13 @@ def _told(observed: Observed) -> tuple[int | None, tuple[Told, ...]]:
 
 
 def _readings(meaning: Meaning) -> Iterator[Told]:
-    for it in meaning.readings:
-        if it.channel is not None and it.status is not None:
-            yield _said(it.channel, it.value, it.status, it.type_code)
-    for item in meaning.items:
-        if item.channel is not None and item.reading is not None:
-            yield _said(item.channel, item.reading.value, item.reading.status, item.type_code)
-
-
-def _said(channel: int, value: float | None, status: Status, type_code: TypeCode | None) -> Told:
-    if type_code is None:
-        return Told(channel, value, status.value)
-    return Told(channel, value, status.value, type_code.unit, 10.0**-type_code.decimals)
+    found = [(it.channel, it.value, it.status, it.type_code) for it in meaning.readings]
+    found += [(it.channel, it.reading.value, it.reading.status, it.type_code) for it in meaning.items if it.reading]
+    return (
+        Told(channel, value, status.value, code.unit, 10.0**-code.decimals)
+        for channel, value, status, code in found
+        if channel is not None and status is not None and code is not None
+    )
 
 
 # --- what is at their inputs ------------------------------------------------------------------------------------------

@@ -42,18 +42,18 @@ def statements() -> "Mapping[str, Statement]":
 
 @cache
 def digest() -> str:
-    """Return the SHA-256 of all files of ``spec/``, each with its name before it."""
+    """Return the SHA-256 of all files: of their names, sizes and contents, in the order of the names."""
     found = sha256()
-    for name, file in sorted(_files("", files()), key=lambda it: it[0]):
-        found.update(f"{name}\n".encode())
-        found.update(file.read_bytes())
+    for name, file in _files(files()):
+        data = file.read_bytes()
+        found.update(f"{name}\n{len(data)}\n".encode() + data)
     return found.hexdigest()
 
 
-def _files(path: str, folder: Traversable) -> Iterator[tuple[str, Traversable]]:
-    """Yield the data files under a folder, with their paths."""
-    for entry in folder.iterdir():
-        if entry.is_dir():
-            yield from _files(f"{path}{entry.name}/", entry)
+def _files(folder: Traversable, above: str = "") -> Iterator[tuple[str, Traversable]]:
+    """Yield the files under a folder with their names, in the order of the names."""
+    for entry in sorted(folder.iterdir(), key=lambda it: it.name):
+        if entry.is_dir() and not entry.name.startswith(("_", ".")):
+            yield from _files(entry, f"{above}{entry.name}/")
         elif entry.name.endswith((".json", ".md")):
-            yield f"{path}{entry.name}", entry
+            yield f"{above}{entry.name}", entry

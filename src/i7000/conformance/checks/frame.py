@@ -1,6 +1,6 @@
-"""The frames of both protocols: their ends, checksums and addresses, and what is no frame (manual 2, 3).
+"""The frames of both protocols: their ends, checksums and addresses, and what is not a frame (manual 2, 3).
 
-Laws: what is no frame for the module is never answered; the sentinel after it is.
+Laws: what is not a frame for the module is never answered; the sentinel after it is.
 """
 
 from collections.abc import Callable, Iterable

@@ -160,7 +160,7 @@ def _halves(area: Area, module: Subject) -> Procedure[None]:
 
 
 def _codes(area: Area, module: Subject) -> Procedure[None]:
-    """Ask for what is not there: the exceptions as those of functions 02 and 04 (E94)."""
+    """Request what is not there: the exceptions are those of functions 02 and 04 (E94)."""
     first, last = _runs(module, area)[0], gaps(module, area)[-1]
     address, end = first[0].address, first[-1].address + first[-1].count
     for start, count in ((last, 1), (end - 1, 2), (address, 0), (address, MOST[area] + 1)):
