@@ -85,19 +85,18 @@ CASES = {
         lambda frame, wire: b"!02\r" if frame.startswith(b"%0102") else wire and wire.replace(b"02", b"01")),
         S, "new-address"),
     "both addresses answer": Case(answers_at_both, S, "new-address"),
-    "soft INIT allows nothing": Case(refusing(b"%0101..07"), R, "soft-init-baud"),
-    "soft INIT waits for the next power-on": Case(at_the_next_power_on, R, "soft-init-baud"),
-    "soft INIT does not allow a checksum": Case(at_the_next_power_on, R, "soft-init-checksum"),
-    "soft INIT never ends": Case(window_stays_open, R, "soft-init-baud-n1"),
-    "a timeout of 0 is none": Case(window_stays_open, R, "soft-init-checksum-n1"),
+    "soft INIT allows nothing": Case(refusing(b"%0101..07"), R, "soft-init"),
+    "soft INIT waits for the next power-on": Case(at_the_next_power_on, R, "soft-init"),
+    "soft INIT does not allow a checksum": Case(at_the_next_power_on, R, "soft-init"),
+    "soft INIT never ends": Case(window_stays_open, R, "soft-init-n1"),
+    "a timeout of 0 is none": Case(window_stays_open, R, "soft-init-n2"),
     "INIT with the stored address": Case(saying(b"!00", b"!01", to=rb"\$00M"), S, "switch"),
     "INIT without the stored settings": Case(saying(b"(!..)....", rb"\g<1>0008", to=rb"\$002"), S, "switch"),
-    "INIT allows no baud rate": Case(acknowledging(rb"%0001"), S, "switch-baud"),
-    "INIT uses the baud rate at once": Case(at_once, S, "switch-baud"),
-    "INIT allows no checksum": Case(acknowledging(rb"%0001"), S, "switch-checksum"),
-    "INIT uses the checksum at once": Case(at_once, S, "switch-checksum"),
+    "INIT allows no baud rate": Case(acknowledging(rb"%0001"), S, "switch-line"),
+    "INIT uses the baud rate at once": Case(at_once, S, "switch-line"),
+    "INIT allows no checksum": Case(acknowledging(rb"%0001"), S, "switch-line"),
+    "INIT uses the checksum at once": Case(at_once, S, "switch-line"),
     "INIT allows no protocol": Case(refusing(rb"\$00P[01]"), R, "switch-protocol"),
-    "the name is forgotten": Case(step, S, "kept-settings", without(name="7017")),
     "a type is forgotten": Case(step, R, "kept-settings", without(type_codes=factory(R).type_codes)),
     "the mask is forgotten": Case(step, S, "kept-settings", without(channel_mask=0xFF)),
     "the offset is forgotten": Case(step, R, "kept-settings", without(cjc_offset=0)),
@@ -131,7 +130,7 @@ def test_a_module_that_speaks_modbus_passes() -> None:
         results = checked(["init"], memory(model, protocol=Protocol.MODBUS_RTU))
 
         assert {it.id for it in results.values() if it.verdict is Verdict.PASS} >= {
-            "init/switch", "init/switch-baud", "init/switch-checksum", "init/switch-protocol",
+            "init/switch", "init/switch-line", "init/switch-protocol",
         }  # fmt: skip
 
 

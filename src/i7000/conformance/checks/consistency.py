@@ -5,8 +5,9 @@ from typing import Any
 
 from i7000 import dcon
 from i7000.conformance.checks.readings import Asked, agree
-from i7000.conformance.checks.steps import Steps, told
+from i7000.conformance.checks.steps import Steps, one_digit, told
 from i7000.conformance.checks.values import asked_at_once
+from i7000.conformance.oracle import readings_of
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Strange, Unclear
 from i7000.errors import DecodeError
@@ -32,11 +33,11 @@ def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]
 
 def _one_by_one(module: Subject) -> Procedure[Asked]:
     found, wires, heards = [], [], []
-    for channel in module.channels:
+    for channel in one_digit(module):
         command = dcon.ReadAnalogInput(module.address, channel)
         response, heard = yield from told(module, command)
         try:
-            found.append((channel, dcon.reading(response, channel, module.profile)))
+            found.append((channel, *readings_of(response, module.profile, channel)))
         except DecodeError as error:
             raise module.wrong(str(error), module.wire(command), heard, "a reading of its type") from None
         wires.append(module.wire(command))
@@ -45,8 +46,12 @@ def _one_by_one(module: Subject) -> Procedure[Asked]:
 
 
 def _channels(module: Subject) -> Procedure[None]:
-    at_once = partial(asked_at_once, module, dcon.ReadAnalogInputs(module.address))
-    yield from agree(module, at_once, partial(_one_by_one, module))
+    yield from agree(module, partial(_at_once, module), partial(_one_by_one, module))
+
+
+def _at_once(module: Subject) -> Procedure[Asked]:
+    asked = yield from asked_at_once(module, dcon.ReadAnalogInputs(module.address))
+    return asked._replace(readings=asked.readings[: one_digit(module).stop])
 
 
 def _type_codes(module: Subject) -> Procedure[None]:

@@ -12,7 +12,7 @@ from attrs import evolve
 
 from i7000 import dcon
 from i7000.conformance.checks.dcon_line import configuration, other_configuration, other_protocol
-from i7000.conformance.checks.dcon_settings import other_mask, other_name, other_type
+from i7000.conformance.checks.dcon_settings import other_mask, other_type
 from i7000.conformance.checks.steps import Steps, put_back, told
 from i7000.conformance.oracle import Twin
 from i7000.conformance.subject import Subject
@@ -116,15 +116,16 @@ def _permitted(module: Subject, command: dcon.SetConfiguration) -> Procedure[Non
     yield from module.expect(dcon.ReadConfiguration(module.address))
 
 
-def _by_soft_init(change: Changing, module: Subject) -> Procedure[None]:
+def _by_soft_init(module: Subject) -> Procedure[None]:
     module.reserve(2)
     old = configuration(module)
+    new = _checksum(_baud(old))
     try:
-        yield from _permitted(module, change(old))
+        yield from _permitted(module, new)
         yield from _permitted(module, old)
         yield from module.expect(dcon.SetSoftInitTimeout(module.address, 0))
     except Reason:
-        yield from _written_back(module, change(old), old)
+        yield from _written_back(module, new, old)
         raise
 
 
@@ -189,9 +190,9 @@ def _by_switch(
     yield from _and_back(module, _stored(module, old))
 
 
-def _configured_by_switch(change: Changing, module: Subject) -> Procedure[None]:
+def _line_by_switch(module: Subject) -> Procedure[None]:
     old = configuration(module)
-    yield from _by_switch(change(old), old, module)
+    yield from _by_switch(_checksum(_baud(old)), old, module)
 
 
 def _protocol_by_switch(module: Subject) -> Procedure[None]:
@@ -226,10 +227,9 @@ def _kept(
 def _settings_kept(module: Subject) -> Procedure[None]:
     memory, address = module.twin.state.eeprom, module.address
     changes: list[Change] = [
-        (other_name(module), dcon.SetModuleName(address, memory.name)),
         (dcon.SetChannelMask(address, other_mask(module)), dcon.SetChannelMask(address, module.twin.state.enabled)),
     ]
-    reads: list[dcon.Command[Any]] = [dcon.ReadModuleName(address), dcon.ReadChannelMask(address)]
+    reads: list[dcon.Command[Any]] = [dcon.ReadChannelMask(address)]
     if dcon.SetChannelTypeCode.availability not in module.profile.refused:
         now = memory.type_codes[0]
         new, old = (dcon.SetChannelTypeCode(address, 0, code) for code in (other_type(module, now), now))
@@ -258,13 +258,11 @@ STEPS: dict[str, Steps] = {
     "init/baud-refused": partial(_refused, _baud),
     "init/checksum-refused": partial(_refused, _checksum),
     "init/new-address": _new_address,
-    "init/soft-init-baud": partial(_by_soft_init, _baud),
-    "init/soft-init-baud-n1": partial(_shut, 1, 1.5),
-    "init/soft-init-checksum": partial(_by_soft_init, _checksum),
-    "init/soft-init-checksum-n1": partial(_shut, 0, 0.0),
+    "init/soft-init": _by_soft_init,
+    "init/soft-init-n1": partial(_shut, 1, 1.5),
+    "init/soft-init-n2": partial(_shut, 0, 0.0),
     "init/switch": _init,
-    "init/switch-baud": partial(_configured_by_switch, _baud),
-    "init/switch-checksum": partial(_configured_by_switch, _checksum),
+    "init/switch-line": _line_by_switch,
     "init/switch-protocol": _protocol_by_switch,
     "init/kept-settings": _settings_kept,
     "init/kept-configuration": _configuration_kept,

@@ -11,7 +11,18 @@ from i7000.host.procedures import Procedure
 from i7000.message import Query
 from i7000.profile import Profile
 
-__all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "told", "unchanged", "with_tail"]
+__all__ = [
+    "Steps",
+    "beyond",
+    "body_of",
+    "changed",
+    "not_carried_out",
+    "one_digit",
+    "put_back",
+    "told",
+    "unchanged",
+    "with_tail",
+]
 
 R = TypeVar("R", bound=dcon.Response)
 
@@ -61,6 +72,11 @@ def told(module: Subject, command: dcon.Command[R], profile: Profile | None = No
     if isinstance(response, dcon.Refused):
         raise module.wrong("refused", wire, heard, command.response.syntax)
     return response, heard
+
+
+def one_digit(module: Subject) -> range:
+    """Return the channels that #AAN can name for sure: what stands for channel 10 in one digit is open (E21)."""
+    return module.channels[:10] if module.profile.channel_digits == 1 else module.channels
 
 
 def beyond(channels: Iterable[int], digits: int) -> list[int]:
