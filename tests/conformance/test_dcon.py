@@ -208,10 +208,12 @@ CASES = {
     "$AA4 is carried out once": Case(forgets_samples, R, "dcon/2.2/sampling dcon/2.12/reply", sampled=True),
     "$AA4 has letters": Case(saying(b">011.", b">011A"), R, "dcon/2.12/reply", sampled=True),
     "settings are not stored": Case(
-        acknowledging(rb"%01|\$01[579A][^\r]|~01[CO3][^\r]|~01EO[^\r]"), R, f"{SETS} dcon/2.39/set dcon/2.39/timeout"
+        acknowledging(rb"%01|\$01[579A][^\r]|~01[CO3][^\r]|~01EO[^\r]"), R,
+        f"{SETS} dcon/2.39/set dcon/2.39/timeout"
     ),
     "the mode is not stored": Case(acknowledging(rb"@01S."), Z, "dcon/2.43/set"),
-    "settings are refused": Case(refusing(rb"%01|\$01[579A][^\r]|~01[CO3][^\r]|~01EO[^\r]"), R, f"{SETS} dcon/2.39/set"),
+    "settings are refused": Case(refusing(rb"%01|\$01[579A][^\r]|~01[CO3][^\r]|~01EO[^\r]"), R,
+        f"{SETS} dcon/2.39/set"),
     "the mask begins with the last channel": Case(
         replaced(rb"^\$0157F\r", rb"$015FE\r"), R, "dcon/2.13/set"),
     "the mask has no channel 9 but 10": Case(replaced(rb"^\$0150(.)FF\r", rb"$01503FF\r"), Model.M_7019Z,
@@ -291,3 +293,20 @@ def test_commands_of_other_models_are_told() -> None:
     result = checked(["dcon/2/of-other-models"], memory(Model.I_7017), more)["dcon/2/of-other-models"]
 
     assert result.text == "the module answers commands of other models: $013"
+
+
+OPEN_POINTS = {
+    "two digits for ten channels in $AAB": (Model.M_7019Z, saying(b"(!01..)..", rb"\1", to=rb"\$01B")),
+    "two digits for sixteen channels in $AA6": (Model.M_7018_16, saying(b"(!01..)..", rb"\1", to=rb"\$016")),
+    "no channel in one digit after 9": (Model.M_7017mC_16, refusing(rb"#01[A-F]\r")),
+    "another type code where it is not used": (R, saying(b"!01..", b"!0100", to=rb"\$012")),
+    "readings far beyond their range": (S, saying(rb">.{7}", b">+13.000", to=b"#010?\r")),
+}
+
+
+@pytest.mark.parametrize("name", OPEN_POINTS)
+def test_a_firmware_that_reads_an_open_point_otherwise_does_not_fail(name: str) -> None:
+    model, firmware = OPEN_POINTS[name]
+    results = checked(GROUPS, memory(model), firmware)
+
+    assert not {it.id: it.text for it in results.values() if it.verdict in (Verdict.FAIL, Verdict.FLAKY)}

@@ -12,7 +12,7 @@ from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Strange, Unclear
 from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
-from i7000.readings import Status
+from i7000.readings import Reading, Status
 from i7000.settings import Protocol
 from i7000.type_codes import MIXED
 
@@ -32,14 +32,16 @@ def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]
 
 
 def _one_by_one(module: Subject) -> Procedure[Asked]:
-    found, wires, heards = [], [], []
+    found: list[tuple[int, Reading]] = []
+    wires, heards = [], []
     for channel in one_digit(module):
         command = dcon.ReadAnalogInput(module.address, channel)
         response, heard = yield from told(module, command)
         try:
-            found.append((channel, *readings_of(response, module.profile, channel)))
+            (reading,) = readings_of(response, module.profile, channel)
         except DecodeError as error:
             raise module.wrong(str(error), module.wire(command), heard, "a reading of its type") from None
+        found.append((channel, reading))
         wires.append(module.wire(command))
         heards.append(heard)
     return Asked(tuple(found), b"".join(wires), b"".join(heards))

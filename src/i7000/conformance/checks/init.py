@@ -18,6 +18,7 @@ from i7000.conformance.oracle import Twin
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason, Skipped, SkipReason
 from i7000.host.procedures import Procedure
+from i7000.models import Model
 from i7000.settings import BaudRate
 
 __all__ = ["STEPS"]
@@ -226,10 +227,13 @@ def _kept(
 
 def _settings_kept(module: Subject) -> Procedure[None]:
     memory, address = module.twin.state.eeprom, module.address
-    changes: list[Change] = [
-        (dcon.SetChannelMask(address, other_mask(module)), dcon.SetChannelMask(address, module.twin.state.enabled)),
-    ]
-    reads: list[dcon.Command[Any]] = [dcon.ReadChannelMask(address)]
+    changes: list[Change] = []
+    reads: list[dcon.Command[Any]] = []
+    if module.model is not Model.M_7018_16:  # how many digits it has there is open (E12)
+        masks = (other_mask(module), module.twin.state.enabled)
+        new_mask, old_mask = (dcon.SetChannelMask(address, mask) for mask in masks)
+        changes.append((new_mask, old_mask))
+        reads.append(dcon.ReadChannelMask(address))
     if dcon.SetChannelTypeCode.availability not in module.profile.refused:
         now = memory.type_codes[0]
         new, old = (dcon.SetChannelTypeCode(address, 0, code) for code in (other_type(module, now), now))
