@@ -178,6 +178,11 @@ def saying(pattern: bytes, by: bytes, *, to: bytes = rb"(?!\$..M)") -> Step:
     return answering(lambda frame, wire: re.sub(pattern, by, wire) if wire and re.match(to, frame) else wire)
 
 
+def silent(pattern: bytes) -> Step:
+    """Return a firmware that does not answer frames that a pattern begins."""
+    return answering(lambda frame, wire: None if re.match(pattern, frame) else wire)
+
+
 def by_turns(begins: bytes, *steps: Step) -> Step:
     """Return a firmware that is another one each time that it hears a frame that a pattern begins."""
     turns = cycle(steps)

@@ -11,7 +11,18 @@ from i7000.conformance.verdict import Verdict
 from i7000.device import power_on, step
 from i7000.simulator import Sources
 from i7000.type_codes import TypeCode
-from tests.conformance.bench import STATEMENTS, Bench, Step, by_turns, checked, memory, replaced, saying
+from tests.conformance.bench import (
+    STATEMENTS,
+    Bench,
+    Step,
+    by_turns,
+    checked,
+    memory,
+    refusing,
+    replaced,
+    saying,
+    silent,
+)
 
 GROUP = [it for it in STATEMENTS.values() if it.group == "consistency" and it.protocol is Protocol.DCON]
 
@@ -45,6 +56,8 @@ CASES = {
     "a channel of another form": Case(
         saying(rb">.{7}", b">+1.0000", to=b"#017"), R, "channels",
         ""),
+    "nothing is answered": Case(silent(b"#01\r"), R, "channels", "length"),
+    "what others read is refused": Case(refusing(b"#01\r"), R, "channels", "refused"),
     "the name changes": Case(
         by_turns(rb"\$01M", step, step, saying(b"7019R", b"7019Z", to=b"")), R, "module-name",
         "another answer than before"),

@@ -27,6 +27,7 @@ from tests.conformance.bench import (
     refusing,
     replaced,
     saying,
+    silent,
     undone,
 )
 from tests.each import each
@@ -240,6 +241,9 @@ CASES = {
         always_calibrates, R, "dcon/2.8/calibrate-n1 dcon/2.9/calibrate-n1 dcon/2.31/enable-n1"),
     "calibration of a 7017 is always enabled": Case(
         always_calibrates, S, "dcon/2.5/calibrate-n1 dcon/2.6/calibrate-n1 dcon/2.31/enable-n1"),
+    "nothing is answered to $AA4": Case(silent(rb"\$014"), R, "dcon/2.12/reply dcon/2.2/sampling", sampled=True),
+    "nothing is answered to a calibration": Case(silent(rb"\$010C"), R, "dcon/2.8/calibrate"),
+    "~** is answered": Case(answering(answers_all), R, "dcon/2.39/timeout-n1"),
     "faults of channels that are off": Case(
         saying(b"!01..", b"!0101", to=rb"\$01B"), R, "dcon/2.22/reply", {"channel_mask": 0xFE}),
 }  # fmt: skip

@@ -139,6 +139,20 @@ def test_fields_out_of_range_of_every_type_pass() -> None:
             assert verdicts(case, "values/sentinels")["values/sentinels"] == (Verdict.PASS, "")
 
 
+def test_voltages_out_of_range_are_open() -> None:
+    far = Sources((Fixed(Signal(100.0, Unit.VOLT)),) * 8)
+    verdict, text = verdicts(Case(step, Model.I_7017, "", sources=far), "values/sentinels")["values/sentinels"]
+
+    assert (verdict, text) == (Verdict.INFO, "no channel is out of range: the special fields were not seen")
+
+
+def test_a_current_below_4_milliampere_is_under_range() -> None:
+    low = Sources((Fixed(Signal(0.0, Unit.MILLIAMPERE)),) * 8)
+    case = Case(step, Model.I_7017, "", {"type_codes": (TypeCode.MA_4_20,) * 8}, low)
+
+    assert verdicts(case, "values/sentinels")["values/sentinels"] == (Verdict.PASS, "")
+
+
 def test_a_signal_that_moves_too_fast_decides_nothing() -> None:
     turns = by_turns(
         rb"#|\$01A",
