@@ -157,3 +157,10 @@ def test_wrong_usage_is_said_before_the_port_is_opened(arguments: tuple[str, str
 def test_a_module_that_is_not_there_is_an_error_of_the_line(run: Run) -> None:
     assert run("fuzz", "sim:I-7018,address=9", *QUICK).code == 3
     assert run("fuzz", "/dev/not-there").code == 3
+
+
+def test_a_module_that_cannot_be_identified_within_what_is_allowed_is_said(run: Run) -> None:
+    told = run("fuzz", "sim:M-7018,address=255,protocol=dcon,checksum=yes", "--address", "255", *QUICK)
+
+    assert told.code == 2
+    assert "cannot be identified within what is allowed: $FFP00" in told.err

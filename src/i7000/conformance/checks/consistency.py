@@ -4,6 +4,7 @@ from functools import partial
 from typing import Any
 
 from i7000 import dcon
+from i7000.conformance.checks import consistency_modbus
 from i7000.conformance.checks.readings import Asked, agree
 from i7000.conformance.checks.steps import Steps, one_digit, told
 from i7000.conformance.checks.values import asked_at_once
@@ -167,4 +168,5 @@ STEPS: dict[str, Steps] = {
     "consistency/protocol": _protocol,
     "consistency/line": _line,
     "consistency/sampled": _sampled,
+    **consistency_modbus.STEPS,
 }
