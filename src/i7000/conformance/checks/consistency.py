@@ -24,7 +24,7 @@ __all__ = ["STEPS"]
 
 
 def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]:
-    """Ask twice for what does not change, with another question between."""
+    """Read twice what does not change, with another read between."""
     _, first = yield from told(module, command(module.address))
     yield from told(module, dcon.ReadConfiguration(module.address))
     _, again = yield from told(module, command(module.address))
@@ -58,7 +58,7 @@ def _at_once(module: Subject) -> Procedure[Asked]:
 
 
 def _type_codes(module: Subject) -> Procedure[None]:
-    """Compare the type of $AA2 with those of $AA8Ci; how mixed types are told is open."""
+    """Compare the type of $AA2 with those of $AA8Ci; the code for mixed types is open."""
     types = []
     for channel in module.channels:
         response, _ = yield from told(module, dcon.ReadChannelTypeCode(module.address, channel))

@@ -132,7 +132,7 @@ def _read_again(module: Subject, first: dcon.SynchronizedData) -> Procedure[None
 
 
 def _sample(module: Subject, *, tail: bool = False) -> Procedure[None]:
-    """Broadcast ``#**``, which no module answers; with `tail` it is no command."""
+    """Broadcast ``#**``, which no module answers; with `tail`, it has characters too many."""
     command = dcon.SynchronizedSampling()
     wire = with_tail(module, command) if tail else module.wire(command)
     module.hear(wire)

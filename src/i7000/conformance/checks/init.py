@@ -131,7 +131,7 @@ def _by_soft_init(module: Subject) -> Procedure[None]:
 
 
 def _shut(timeout: int, wait: float, module: Subject) -> Procedure[None]:
-    """Ask for soft INIT with a timeout, and set another baud rate when it is over."""
+    """Open the soft INIT window, and set another baud rate when its timeout is over."""
     yield from module.expect(dcon.SetSoftInitTimeout(module.address, timeout))
     yield from module.expect(dcon.SoftInit(module.address))
     yield from module.wait(wait)

@@ -46,7 +46,7 @@ def with_tail(module: Subject, command: Query[Any]) -> bytes:
 
 
 def not_carried_out(module: Subject, *wires: bytes) -> Procedure[None]:
-    """Send frames that are no commands: each is refused or ignored.
+    """Send frames that the module must not carry out: each is refused or ignored.
 
     Special: silence is followed by a read that the module answers.
     Manual: 2; E27 (which of the two it is).
@@ -102,7 +102,7 @@ def changed(module: Subject, new: Query[Any], old: Query[Any], *reads: Query[Any
 
 
 def unchanged(module: Subject, tries: Procedure[None], old: Query[Any], *reads: Query[Any]) -> Procedure[None]:
-    """Make tries that the module must not carry out, and read the setting; write it again if something is wrong."""
+    """Make attempts that the module must not carry out, and read the setting; write it again if something is wrong."""
     module.reserve(1)
     try:
         yield from tries
