@@ -34,6 +34,7 @@ class Bench:
     """Whether its power can be switched."""
     line: LineSettings = field(factory=LineSettings)
     sources: Sources | None = None
+    connected: Sources = field(init=False)
     stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom
     """What is left of the settings without power."""
     now: float = 0.0
@@ -41,7 +42,7 @@ class Bench:
     text: bytes = b""
 
     def __attrs_post_init__(self) -> None:
-        self.sources = self.sources or default_sources(self.state.eeprom)
+        self.connected = self.sources or default_sources(self.state.eeprom)
 
     def drive(self, procedure: Generator[Any, Any, Any]) -> Any:
         """Carry out a procedure, and return what it returns."""
@@ -80,7 +81,7 @@ class Bench:
         return [frame for frame in frames if isinstance(frame, bytes)]
 
     def _answer(self, frame: bytes) -> bytes | None:
-        self.state, wire = self.firmware(self.state, frame, self.sources.at(self.now), self.now)
+        self.state, wire = self.firmware(self.state, frame, self.connected.at(self.now), self.now)
         return wire
 
 
@@ -96,12 +97,11 @@ def checked(
     firmware: Step = step,
     *,
     allowed: frozenset[Hazard] = ALL,
-    power: bool = True,
     bench: Bench | None = None,
 ) -> dict[str, CheckResult]:
     """Return what became of the selected checks of a module, by their ids."""
     state = power_on(eeprom, now=0.0)
-    bench = bench or Bench(state, firmware, power, state.ram.line_settings)
+    bench = bench or Bench(state, firmware, line=state.ram.line_settings)
     wanted = selected(STATEMENTS, select)
     statements = [it for it in STATEMENTS.values() if it.id in wanted]
     planned = plan(statements, state.profile, eeprom.protocol, allowed)
@@ -176,6 +176,11 @@ def saying(pattern: bytes, by: bytes, *, to: bytes = rb"(?!\$..M)") -> Step:
     Without `to`, these are all answers but that with the name, without which nothing else is tested.
     """
     return answering(lambda frame, wire: re.sub(pattern, by, wire) if wire and re.match(to, frame) else wire)
+
+
+def silent(pattern: bytes) -> Step:
+    """Return a firmware that does not answer frames that a pattern begins."""
+    return answering(lambda frame, wire: None if re.match(pattern, frame) else wire)
 
 
 def by_turns(begins: bytes, *steps: Step) -> Step:

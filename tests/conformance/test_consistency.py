@@ -1,6 +1,8 @@
 """The checks of one fact asked in two ways: each of them finds a firmware at fault."""
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -9,7 +11,18 @@ from i7000.conformance.verdict import Verdict
 from i7000.device import power_on, step
 from i7000.simulator import Sources
 from i7000.type_codes import TypeCode
-from tests.conformance.bench import STATEMENTS, Bench, Step, by_turns, checked, memory, replaced, saying
+from tests.conformance.bench import (
+    STATEMENTS,
+    Bench,
+    Step,
+    by_turns,
+    checked,
+    memory,
+    refusing,
+    replaced,
+    saying,
+    silent,
+)
 
 GROUP = [it for it in STATEMENTS.values() if it.group == "consistency" and it.protocol is Protocol.DCON]
 
@@ -21,7 +34,7 @@ class Case(NamedTuple):
     model: Model
     found: str
     text: str
-    changes: dict[str, object] = {}
+    changes: Mapping[str, Any] = MappingProxyType({})
     verdict: Verdict = Verdict.FAIL
     sources: Sources | None = None
 
@@ -35,15 +48,19 @@ CASES = {
     "the configuration changes": Case(
         by_turns(rb"\$012", step, step, saying(b"00\r", b"80\r")), R, "configuration", "another answer than before"),
     "#AAN reads the next channel": Case(
-        replaced(rb"^#010", b"#011"), Model.I_7017, "channels", "channel 0 reads 2.222 V in one way and 1.111 V in the other"),
+        replaced(rb"^#010", b"#011"), Model.I_7017, "channels",
+        "channel 0 reads 2.222 V in one way and 1.111 V in the other"),
     "a channel is off in one way": Case(
         saying(rb">.{7}", b">" + b" " * 7, to=b"#017"), R, "channels",
         "channel 7 reads disabled in one way and 8.889 V in the other"),
     "a channel of another form": Case(
         saying(rb">.{7}", b">+1.0000", to=b"#017"), R, "channels",
         ""),
+    "nothing is answered": Case(silent(b"#01\r"), R, "channels", "length"),
+    "what others read is refused": Case(refusing(b"#01\r"), R, "channels", "refused"),
     "the name changes": Case(
-        by_turns(rb"\$01M", step, step, saying(b"7019R", b"7019Z", to=b"")), R, "module-name", "another answer than before"),
+        by_turns(rb"\$01M", step, step, saying(b"7019R", b"7019Z", to=b"")), R, "module-name",
+        "another answer than before"),
     "another type in $AA2": Case(
         saying(b"!01..", b"!010A", to=rb"\$012"), Model.I_7017R, "type-codes", "type code 0A"),
     "a mask that is not that of the blanks": Case(
@@ -84,7 +101,7 @@ def test_a_firmware_at_fault_is_found(name: str) -> None:
 
 
 def test_mixed_types_are_told_in_some_way() -> None:
-    changes: dict[str, object] = {"type_codes": (TypeCode.K, *(TypeCode.J,) * 7)}
+    changes: Mapping[str, Any] = {"type_codes": (TypeCode.K, *(TypeCode.J,) * 7)}
     case = Case(saying(b"!01FF", b"!010F", to=rb"\$012"), R, "type-codes", "", changes)
 
     assert verdict(case) == (Verdict.INFO, "$AA2 has the type code 0F, where FF is expected")

@@ -1,7 +1,9 @@
 """The checks of readings: each of them finds a firmware at fault."""
 
 import re
-from typing import NamedTuple
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -61,7 +63,7 @@ class Case(NamedTuple):
     firmware: Step
     model: Model
     found: str
-    changes: dict[str, object] = {}
+    changes: Mapping[str, Any] = MappingProxyType({})
     sources: Sources | None = None
 
 
@@ -120,7 +122,7 @@ def test_every_check_finds_some_firmware() -> None:
 def test_a_zero_with_a_minus_is_told() -> None:
     firmware = saying(rb"\+(?=[0.]{6})", b"-", to=b"#01\r")
     still = Sources((Fixed(Signal(0.0, Unit.VOLT)),) * 8)
-    case = Case(firmware, Model.I_7017, "", {}, still)
+    case = Case(firmware, Model.I_7017, "", sources=still)
 
     assert verdicts(case, "values/zero")["values/zero"] == (
         Verdict.INFO,
@@ -135,6 +137,20 @@ def test_fields_out_of_range_of_every_type_pass() -> None:
             case = Case(step, Model.M_7019R, "", changes, sources)
 
             assert verdicts(case, "values/sentinels")["values/sentinels"] == (Verdict.PASS, "")
+
+
+def test_voltages_out_of_range_are_open() -> None:
+    far = Sources((Fixed(Signal(100.0, Unit.VOLT)),) * 8)
+    verdict, text = verdicts(Case(step, Model.I_7017, "", sources=far), "values/sentinels")["values/sentinels"]
+
+    assert (verdict, text) == (Verdict.INFO, "no channel is out of range: the special fields were not seen")
+
+
+def test_a_current_below_4_milliampere_is_under_range() -> None:
+    low = Sources((Fixed(Signal(0.0, Unit.MILLIAMPERE)),) * 8)
+    case = Case(step, Model.I_7017, "", {"type_codes": (TypeCode.MA_4_20,) * 8}, low)
+
+    assert verdicts(case, "values/sentinels")["values/sentinels"] == (Verdict.PASS, "")
 
 
 def test_a_signal_that_moves_too_fast_decides_nothing() -> None:
@@ -154,4 +170,4 @@ def test_a_signal_that_moves_slowly_passes() -> None:
     slow = Sources((Ramp(-10, 10, 60, Unit.VOLT),) * 8)
 
     for id_ in ("values/hex", "values/format-percent", "values/format-hex"):
-        assert verdicts(Case(step, Model.I_7017, "", {}, slow), id_)[id_][0] is Verdict.PASS
+        assert verdicts(Case(step, Model.I_7017, "", sources=slow), id_)[id_][0] is Verdict.PASS

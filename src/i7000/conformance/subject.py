@@ -153,7 +153,7 @@ class Subject:
             self._admit(wire)
 
     def _admit(self, wire: bytes) -> None:
-        """Let the guard see bytes, and count those with which a module would change its EEPROM.
+        """Pass bytes to the guard, and count those with which a module would change its EEPROM.
 
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """
