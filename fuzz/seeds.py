@@ -195,7 +195,7 @@ def _logs() -> Iterator[bytes]:
 
 
 def _streams() -> Iterator[bytes]:
-    for at, it in enumerate(_both()):
+    for at, it in enumerate(list(_both())[::7]):  # the target is too slow for all of them
         yield it.start + bytes((at % 8,)) + _CUT + it.sent + it.answer
 
 
