@@ -35,9 +35,9 @@ class Fragile(VirtualPort):
                 self._bus = Bus(tuple(it.store(type_codes=(TypeCode.K,) * 8) for it in self._bus.modules))
         return len(data) if self.broken else super().write(data)
 
-    def power_cycle(self) -> None:
+    def power_cycle(self, *, init_switch: bool | None = None) -> None:
         self.broken = False
-        super().power_cycle()
+        super().power_cycle(init_switch=init_switch)
 
 
 @pytest.fixture
