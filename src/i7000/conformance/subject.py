@@ -49,7 +49,7 @@ class Subject:
     now: float = 0.0
     """The time of the line at the end of the last step."""
     writes_left: int = 64
-    """How many frames may still change the EEPROM."""
+    """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
     @property
     def protocol(self) -> Protocol:
@@ -111,7 +111,7 @@ class Subject:
         """
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
         for _, wire in parts:
-            self._count(wire)
+            self._admit(wire)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
@@ -119,15 +119,26 @@ class Subject:
         self.now = heard.now
         return heard
 
-    def _count(self, wire: bytes) -> None:
-        """Count bytes that can change the EEPROM.
+    def _admit(self, wire: bytes) -> None:
+        """Count bytes with which a module would change its EEPROM.
 
         Errors: `Skipped` if all writes of the run are used up.
         """
         if hazards_of(wire, self.line) & _STORED:
-            if not self.writes_left:
-                raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
+            self._count(self.twin.hear(wire, self.now)[0])
+
+    def _count(self, after: Twin) -> None:
+        if after.state.eeprom != self.twin.state.eeprom:
+            self.reserve(1)
             self.writes_left -= 1
+
+    def reserve(self, writes: int) -> None:
+        """Make sure that a change of settings can be made and taken back.
+
+        Errors: `Skipped` if the run has not so many writes left.
+        """
+        if self.writes_left < writes:
+            raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
 
     def wait(self, seconds: float) -> Procedure[None]:
         """Wait for so many seconds."""
@@ -175,7 +186,9 @@ class Subject:
 
     def hear(self, wire: bytes) -> Answer:
         """Give the twin a frame that is sent to the module, and return its answer."""
-        self.twin, answer = self.twin.hear(wire, self.now)
+        after, answer = self.twin.hear(wire, self.now)
+        self._count(after)
+        self.twin = after
         return answer
 
     def decoded(self, answer: Answer, heard: bytes) -> Any:  # noqa: ANN401 - any response
