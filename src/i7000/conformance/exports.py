@@ -34,9 +34,15 @@ def reproduction(report: Report, check_id: str) -> str:
         words.append("--i-can-power-cycle")
     if "calibration" in harmful:
         words.append(f"--confirm {quote(str(module.get('name')))}")
-    seed = report.start.get("seed")
+    seed, scale, model = (report.start.get(name) for name in ("seed", "timeout_scale", "given_model"))
     if isinstance(seed, int) and seed:
         words.append(f"--seed {seed}")
+    if isinstance(scale, int | float) and scale != 1:
+        words.append(f"--timeout-scale {scale:g}")
+    if isinstance(model, str):
+        words.append(f"--model {quote(model)}")
+    if report.start.get("echo") is True:
+        words.append("--echo")
     return " ".join(words)
 
 
