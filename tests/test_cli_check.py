@@ -27,8 +27,8 @@ LIES = "dcon/2.38/reply"
 
 
 def lying(frame: bytes, answer: bytes | None) -> bytes | None:
-    """Answer another timeout with a digit too few."""
-    return b"!0101F\r" if frame == b"~012\r" else answer
+    """Answer a timeout with a sign and a digit too few."""
+    return b"!01+9\r" if frame == b"~012\r" else answer
 
 
 def records(path: Path) -> list[dict[str, Any]]:
@@ -78,11 +78,11 @@ def test_a_failure_is_shown_with_its_bytes_and_how_to_repeat_it(run: Run, played
 link
   link/alive                               PASS              87 ms  2.24, 3.3.1
 dcon
-  dcon/2.38/reply                          FAIL              86 ms  2.38
-    timeout is 1F where 00 is right
+  dcon/2.38/reply                          FAIL              85 ms  2.38
+    length at byte 5 of !01+9\\r; allowed: 6 characters: !AAEVV (manual 2.38)
     sent      7E 30 31 32 0D                                    ~012.
-    received  21 30 31 30 31 46 0D                              !0101F.
-                          ^^ 30 is right
+    received  21 30 31 2B 39 0D                                 !01+9.
+                       ^^ 30 is right
     expected  !01000
     repeated  FAIL, FAIL
     required  The module answers ~AA2 with its address, whether the watchdog is enabled, and its timeout in two hex digits.
@@ -416,7 +416,7 @@ def test_checks_are_listed_and_explained(run: Run) -> None:
     assert run("check", "--list", "link/alive").out.split() == [
         "link/alive", "must", "the", "module", "answers",
     ]  # fmt: skip
-    assert run("check", "--explain", "init/switch").out.splitlines()[0] == "init/switch  the INIT switch"
+    assert run("check", "--explain", "init/switch").out.splitlines()[0] == "init/switch  power-on with the INIT switch"
 
 
 # --- the baseline -----------------------------------------------------------------------------------------------------
@@ -536,7 +536,7 @@ def test_the_budget_of_writes_is_kept(run: Run, here: Path, played: Play) -> Non
     [
         "sim:M-7019R,type=K",
         "sim:I-7018,address=0",
-        "sim:I-7018,address=255,checksum=on",
+        "sim:I-7018,address=255",
         "sim:M-7018,protocol=dcon,baud=115200",
     ],
 )
@@ -548,11 +548,27 @@ def test_modules_with_other_settings_pass(run: Run, target: str) -> None:
     assert told.code == 0, told.out
 
 
+def test_a_read_that_the_guard_refuses_is_told(run: Run) -> None:
+    told = run("check", "sim:I-7018,address=255,checksum=on", "link", "--address", "255")
+
+    assert told.code == 2
+    assert "$FFP00\\r after " in told.err
+    assert told.err.endswith("was not sent: it can make the module unreachable (--allow comm)\n")
+
+
 def test_a_module_in_init_mode_passes_and_is_named_so(run: Run) -> None:
-    told = run("check", "sim:I-7018,init_switch=on,address=5", "link", "frame", "--address", "0")
+    told = run("check", "sim:I-7018,init=on,address=5", "link", "frame", "--address", "0")
 
     assert told.code == 0, told.out
-    assert "INIT" in told.err
+    assert "it is in INIT mode; stored: address 05" in told.err
+
+
+def test_a_module_in_init_mode_is_not_checked_for_what_begins_outside_of_it(run: Run, here: Path) -> None:
+    options = ("--address", "0", "--allow", "comm", "--i-can-power-cycle")
+    told = run("check", "sim:I-7018,init=on,address=5", *options)
+
+    assert (told.code, list(here.iterdir())) == (2, [])
+    assert "I-7018 at address 00 is in INIT mode" in told.err
 
 
 def test_the_echo_of_an_adapter_is_dropped(run: Run, played: Play) -> None:
@@ -565,7 +581,7 @@ def test_the_echo_of_an_adapter_is_dropped(run: Run, played: Play) -> None:
 
 
 def test_modules_of_both_protocols_on_one_line_are_checked(run: Run) -> None:
-    line = "sim:I-7018+M-7018,protocol=modbus_rtu"
+    line = "sim:I-7018+M-7018,protocol=rtu"
 
     assert [run("check", line, "link", "frame", "--address", str(at)).code for at in (1, 2)] == [0, 0]
 

@@ -80,6 +80,9 @@ class _Checking:
         self._check_name(before)
         eeprom = eeprom_of(before)
         init_mode = there.address == 0 and eeprom.address != 0
+        if init_mode and Hazard.COMM in options.allowed:
+            why = "what --allow comm tests begins outside of it"
+            raise UsageError(f"{there.words} is in INIT mode: {why}: switch INIT off, and the power off and on")
         profile = power_on(eeprom, now=0.0, init_switch=init_mode).profile
         chosen = [it for it in spec.statements().values() if it.id in self._settings.ids]
         planned = plan(chosen, profile, there.protocol, options.allowed)

@@ -20,7 +20,7 @@ from i7000.cli.stored import stored_settings
 from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
-from i7000.conformance import Hazard
+from i7000.conformance import GuardError, Hazard
 from i7000.host.procedures import Identified, Procedure, identify
 from i7000.link import Line, LinkError, Observed, Port
 from i7000.link.guarded import GuardedPort
@@ -76,7 +76,8 @@ def run(
 
     Shape: with `allowed`, whatever is sent passes a guard that refuses the rest.
 
-    Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
+    Errors: `UsageError` for a text that is not a target, and for what the guard refuses; `LineError` for a port that
+        cannot be opened or is lost.
     """
     with broken_off_by_signals() as ending:
         try:
@@ -89,6 +90,8 @@ def run(
                 return body(OpenLine(line, ending))
         except LinkError as error:
             raise LineError(error) from None
+        except GuardError as error:
+            raise UsageError(error) from None
         except KeyboardInterrupt:
             return 128 + (ending.number or signal.SIGINT)
 

@@ -13,7 +13,7 @@ from fnmatch import fnmatchcase
 from random import Random
 from traceback import extract_tb
 
-from attrs import define, evolve
+from attrs import evolve
 
 from i7000.conformance.checks import STEPS
 from i7000.conformance.guard import GuardError
@@ -27,7 +27,7 @@ from i7000.device import Eeprom, State
 from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
-from i7000.host.procedures import BytesHeard, Procedure, Result, Snapshot, Tell, Tune
+from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snapshot, Tell, Tune
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
@@ -194,8 +194,7 @@ class Run:
         twin = Twin.of(eeprom, 0.0, init_switch=init_mode)
         self.twin = Twin(twin.state.keep(checksum=checksum, line_settings=line))
         self.results: list[CheckResult] = []
-        self.now: float | None = None
-        self.began: float | None = None
+        self.now = self.began = 0.0
         self.writes = 0
         """The frames so far that may have changed the EEPROM."""
         self.may_have_changed = False
@@ -213,6 +212,8 @@ class Run:
 
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
+        first: BytesHeard = yield SendBytes((), 0.0)
+        self.now = self.began = first.now
         for group in _halves(self.planned):
             yield from self._checks(group)
 
@@ -256,7 +257,7 @@ class Run:
 
     def _over(self) -> Skipped | None:
         limit = self.options.seconds
-        if limit is not None and self.now is not None and self.began is not None and self.now - self.began > limit:
+        if limit is not None and self.now - self.began > limit:
             return Skipped(SkipReason.BUDGET, f"the {limit:g} s of the run are over")
         return None
 
@@ -266,18 +267,18 @@ class Run:
             self.line,
             self.options.timeout_scale,
             Random(f"{self.options.seed} {statement.id}"),  # noqa: S311 - repeatable
-            self.now or 0.0,
+            self.now,
             max(0, self.options.writes - self.writes),
         )
         budget = subject.writes_left
         self.may_have_changed |= bool(statement.hazards & _STORED)
         started = self.now
-        heard = _Heard()
+        heard: list[object] = []
         verdict, reason = Verdict.PASS, None
         steps = STEPS[statement.id](subject)
         try:
             yield from self._steps(steps, subject, heard)
-            if not heard.evidence:
+            if not any(map(_is_evidence, heard)):
                 verdict, reason = Verdict.INCONCLUSIVE, Reason("nothing was received")
         except GuardError as error:
             verdict, reason = Verdict.SKIP, Skipped(SkipReason.HAZARD, str(error))
@@ -291,13 +292,12 @@ class Run:
             steps.close()
             writes = budget - subject.writes_left
             self.writes += writes
-        started = heard.began if started is None else started
-        seconds = 0.0 if started is None or self.now is None else self.now - started
+        seconds = self.now - started
         yield from self._back(statement, subject, verdict)
         return _result(statement, verdict, reason, seconds, writes)
 
-    def _steps(self, steps: Procedure[None], subject: Subject, heard: "_Heard") -> Procedure[None]:
-        """Carry out the steps of a check; what the port refuses is raised in them."""
+    def _steps(self, steps: Procedure[None], subject: Subject, heard: list[object]) -> Procedure[None]:
+        """Carry out the steps of a check, and collect what they receive; what the port refuses is raised in them."""
         answer: object = None
         refusal: I7000Error | None = None
         while True:
@@ -311,11 +311,9 @@ class Run:
                 answer = yield step
             except I7000Error as error:
                 refusal = error
-            heard.evidence |= _is_evidence(answer)
+            heard.append(answer)
             if isinstance(answer, BytesHeard):
                 self.now = answer.now
-                self.began = answer.now if self.began is None else self.began
-                heard.began = answer.now if heard.began is None else heard.began
 
     def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
         """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
@@ -336,14 +334,6 @@ class Run:
         elif subject.line != self.line:
             yield Tune(self.line)
         self.place = self.twin
-
-
-@define
-class _Heard:
-    """What a check heard so far: whether there were bytes of the module, and when the first step ended."""
-
-    evidence: bool = False
-    began: float | None = None
 
 
 def _whereabouts(state: State) -> tuple[object, ...]:
