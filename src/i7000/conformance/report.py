@@ -143,7 +143,10 @@ class _Records:
         """Yield what is wrong with the end."""
         if self.end is None:
             yield "INCOMPLETE: the last line is missing"
-        elif self.end.get("digest") != self._digest.hexdigest():
+            return
+        if self.end.get("complete") is not True:
+            yield "INCOMPLETE: stopped before the end"
+        if self.end.get("digest") != self._digest.hexdigest():
             yield "changed after it was written: the digest is that of other lines"
 
 
