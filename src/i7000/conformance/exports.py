@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from shlex import quote
 from xml.etree import ElementTree as ET
 
-from i7000.conformance.report import Checked, Report
+from i7000.conformance.report import Checked, Report, texts
 from i7000.conformance.verdict import Verdict
 
 __all__ = ["junit", "pytest_file", "reproduction"]
@@ -27,16 +27,22 @@ def reproduction(report: Report, check_id: str) -> str:
         words.append(f"--baud {baud}")
     if isinstance(form, str) and form != "N81":
         words.append(f"--character-format {form}")
-    allowed = report.start.get("allowed")
-    harmful = [name for name in allowed if name not in ("observe", "memory")] if isinstance(allowed, list) else []
-    words += [f"--allow {name}" for name in harmful]
+    allowed = texts(report.start, "allowed")
+    harmful = [name for name in allowed if name not in ("observe", "memory", *(["write"] if "comm" in allowed else []))]
+    words += [f"--allow {quote(name)}" for name in harmful]
     if "comm" in harmful:
         words.append("--i-can-power-cycle")
     if "calibration" in harmful:
         words.append(f"--confirm {quote(str(module.get('name')))}")
-    seed = report.start.get("seed")
+    seed, scale, model = (report.start.get(name) for name in ("seed", "timeout_scale", "given_model"))
     if isinstance(seed, int) and seed:
         words.append(f"--seed {seed}")
+    if isinstance(scale, int | float) and scale != 1:
+        words.append(f"--timeout-scale {scale:g}")
+    if isinstance(model, str):
+        words.append(f"--model {quote(model)}")
+    if report.start.get("echo") is True:
+        words.append("--echo")
     return " ".join(words)
 
 
@@ -106,7 +112,7 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
 
 
 def _words(check: Checked, report: Report) -> Iterator[str]:
-    yield f"required: {check['requirement']} (manual {', '.join(map(str, check['sections'] or ()))})"
+    yield f"required: {check['requirement']} (manual {', '.join(check.texts('sections'))})"
     for name in ("sent", "received", "expected"):
         if check[name] is not None:
             yield f"{name}: {check[name]}"
