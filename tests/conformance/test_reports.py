@@ -1,7 +1,9 @@
 """Reports of odd content: they are read, and made into other files, without an error."""
 
+import ast
 import json
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import pytest
 from hypothesis import given
@@ -12,6 +14,8 @@ from i7000.conformance.html import page
 from i7000.conformance.replay import Replayed
 from i7000.conformance.report import ReportError, read_report
 
+PARTS = ["Expr", "Import", "Import", "Import", "Import", "Import", "Assign", "Assign", "Assign", "FunctionDef"]
+"""What a file for pytest has, and nothing else, whatever the report holds."""
 START: dict[str, Any] = {"record": "run-start", "schema_version": 1}
 PLAIN = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=8)
 ANYTHING = st.recursive(
@@ -30,7 +34,9 @@ RECORDS = st.builds(
 
 def made(start: dict[str, Any], *records: dict[str, Any]) -> str:
     report = read_report(json.dumps(it) for it in ({**start, **START}, *records))
-    return page(report) + junit(report) + pytest_file(report, "test_it.py") + reproduction(report, "link/a")
+    ET.fromstring(junit(report).encode("utf-8", "backslashreplace"))  # noqa: S314 - just made
+    assert [type(node).__name__ for node in ast.parse(pytest_file(report)).body] == PARTS
+    return page(report) + reproduction(report, "link/a")
 
 
 @given(st.dictionaries(NAMES, ANYTHING, max_size=6), st.lists(RECORDS, max_size=4))
@@ -42,6 +48,16 @@ def test_whatever_a_report_holds_it_is_shown(start: dict[str, Any], records: lis
 def test_whatever_a_file_holds_it_is_a_report_or_none(lines: list[str]) -> None:
     with pytest.raises(ReportError):
         read_report(lines)
+
+
+HOSTILE = '"""\nimport os\nos.abort()\n"""\x00\x1b\ud800{}'
+
+
+def test_hostile_text_stays_text() -> None:
+    start = {"target": HOSTILE, "module": {"model": HOSTILE, "name": HOSTILE}, "allowed": [HOSTILE]}
+    record = {"record": "check", "id": HOSTILE, "verdict": "FAIL", "text": HOSTILE, "reason": HOSTILE}
+
+    assert "</html>" in made(start, record, {**record, "verdict": "SKIP"}, {**record, "verdict": HOSTILE})
 
 
 def check(verdict: str, **more: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from i7000.conformance.run import CheckResult, Options, Planned, Run, exit_code,
 from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement, read_statements
 from i7000.conformance.subject import Subject
-from i7000.conformance.verdict import Difference, Note, SkipReason, Skipped, Strange, Unclear, Verdict
+from i7000.conformance.verdict import Difference, Note, Skipped, SkipReason, Strange, Unclear, Verdict
 from i7000.device import factory, power_on
 from i7000.host.procedures import Procedure, snapshot
 from i7000.link import Line, VirtualPort
@@ -69,6 +69,8 @@ class Bench:
     ) -> Run:
         self.monkeypatch.setattr("i7000.conformance.run.STEPS", {it.id: steps for it, steps in checks})
         chosen = Options(**{"allowed": allowing([Hazard.WRITE]), **options})
+        if not self.port.is_open:
+            self.port.open()
         with Line(GuardedPort(self.port, chosen.allowed)) as line:
             state = self.port.modules[0]
             before = line.run(snapshot(1, state.profile, Protocol.DCON)) if restoring else None
@@ -217,8 +219,8 @@ def test_a_module_is_only_compared_if_nothing_may_be_written(bench: Bench) -> No
     port = VirtualPort([before])
     with Line(port) as line:
         kept = line.run(snapshot(1, before.profile, Protocol.DCON))
+    bench.port.open()
     with Line(bench.port) as line:
-        bench.port.open() if not bench.port.is_open else None
         found = line.run(settle(kept, run.twin, LineSettings(), writing=False))
 
     assert (found.left, found.restored, found.is_as_before) == (("name",), (), False)
