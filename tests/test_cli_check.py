@@ -11,11 +11,14 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from i7000 import spec
+from i7000 import Model, spec
 from i7000.cli.check_schema import SCHEMA
+from i7000.cli.check_text import details
 from i7000.conformance.checks import STEPS
+from i7000.conformance.run import CheckResult
 from i7000.conformance.subject import Subject
-from i7000.host.procedures import Procedure, Snapshot
+from i7000.conformance.verdict import Verdict
+from i7000.host.procedures import Procedure, Snapshot, Wait
 from tests.firmwares import FirmwarePort, Lost, Play, played
 from tests.terminal import Run, plain, run
 
@@ -81,7 +84,7 @@ def test_a_failure_is_shown_with_its_bytes_and_how_to_repeat_it(run: Run, played
 link
   link/alive                               PASS              54 ms  2.24, 3.3.1
 dcon
-  dcon/2.38/reply                          FAIL              85 ms  2.38
+  dcon/2.38/reply                          FAIL              51 ms  2.38
     length at byte 5 of !01+9\\r; allowed: 6 characters: !AAEVV (manual 2.38)
     sent      7E 30 31 32 0D                                    ~012.
     received  21 30 31 2B 39 0D                                 !01+9.
@@ -602,3 +605,66 @@ def test_the_time_of_a_run_is_estimated_at_a_real_port(run: Run, played: Play) -
 
     assert "this takes about 1 s" in told.err
     assert "this takes about 1 s" in run("check", "COM9", "link/alive").err
+
+
+# --- the terminal -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("file", ["", "1"])
+def test_progress_is_drawn_on_a_terminal(run: Run, monkeypatch: pytest.MonkeyPatch, file: str) -> None:
+    monkeypatch.setattr("i7000.cli.text.Printer.is_interactive", property(lambda _: True))
+    monkeypatch.setenv("FORCE_COLOR", file)
+    told = run("check", SIM, "link/prompt", "init/switch")
+
+    assert told.code == 0
+    assert "link/prompt" in told.out
+
+
+def result(received: bytes, right: bytes) -> CheckResult:
+    statement = spec.statements()["link/alive"]
+    return CheckResult(statement, Verdict.FAIL, sent=b"$", received=received, right=right)
+
+
+@pytest.mark.parametrize(
+    ("received", "right", "words"),
+    [
+        (
+            b"!01",
+            b"!0100",
+            ["received  21 30 31                                         !01", "         ^^ 30 is missing"],
+        ),
+        (b"!0100", b"!01", ["         ^^ too many bytes"]),
+        (b"!01", b"!01", []),
+        (b"!" * 20, b"!" * 18, ["received  " + "21 " * 16, "21 21 21 21", "      ^^ too many bytes"]),
+        (b"!" * 16, b"!" * 17, ["received  " + "21 " * 16, " " * 62 + "^^ 21 is missing"]),
+        (b"!" * 300, b"", ["and 172 more bytes"]),
+    ],
+)
+def test_a_caret_is_at_the_first_byte_that_is_not_right(received: bytes, right: bytes, words: list[str]) -> None:
+    lines = ["".join(text for text, _ in line) for line in details(result(received, right), "again")]
+
+    assert all(any(word.rstrip() in line for line in lines) for word in words), lines
+    assert any("^^" in line for line in lines) == any("^^" in word for word in words)
+    assert max(map(len, lines)) <= 100
+
+
+def test_a_module_that_stops_answering_before_the_run_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(*_: object) -> Procedure[Snapshot]:
+        yield Wait(0.0)
+        return Snapshot(Model.I_7018)
+
+    monkeypatch.setattr("i7000.cli.checking.snapshot", nothing)
+    told = run("check", SIM, "link/alive")
+
+    assert (told.code, "stopped answering: nothing was checked" in told.err) == (3, True)
+
+
+def test_a_restoration_that_is_broken_off_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(*_: object, **__: object) -> Procedure[None]:
+        yield Wait(0.0)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("i7000.cli.checking.settle", stopped)
+    told = run("check", SIM, "link/alive")
+
+    assert (told.code, "the module could not be restored: stopped" in told.err) == (3, True)

@@ -104,7 +104,10 @@ class Plain:
     """A port without anything but the methods of a serial port."""
 
     def __init__(self, port: VirtualPort) -> None:
-        self.port = port
+        self.__dict__["port"] = port
+
+    def __setattr__(self, name: str, value: object) -> None:
+        setattr(self.port, name, value)
 
     def __getattr__(self, name: str) -> Any:
         if name == "power_cycle":
@@ -121,7 +124,7 @@ class Broken(VirtualPort):
 
     error: Exception = RuntimeError("stuck")
 
-    def power_cycle(self, *, init_switch: bool | None = None) -> None:  # noqa: ARG002 - as of the others
+    def power_cycle(self, *, init_switch: bool | None = None) -> None:  # noqa: ARG002 - as of `VirtualPort`
         raise self.error
 
 

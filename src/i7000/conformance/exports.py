@@ -7,9 +7,11 @@ from xml.etree import ElementTree as ET
 
 from i7000.conformance.report import Checked, Report, texts
 from i7000.conformance.verdict import Verdict
+from i7000.models import Model
 
 __all__ = ["junit", "pytest_file", "reproduction"]
 
+_MODELS = frozenset(model.value for model in Model)
 _FAILURES = frozenset({Verdict.FAIL.value, Verdict.FLAKY.value, Verdict.PASS_GOOD_ONLY.value})
 _SKIPPED = frozenset({Verdict.SKIP.value, Verdict.INCONCLUSIVE.value, Verdict.INFO.value})
 _UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -60,7 +62,7 @@ def junit(report: Report) -> str:
     for check in report.checks:
         by_group.setdefault(check.id.partition("/")[0], []).append(check)
     for group, checks in by_group.items():
-        suite = ET.SubElement(suites, "testsuite", {"name": f"i7000.{group}", **_counts(checks)})
+        suite = ET.SubElement(suites, "testsuite", {"name": _printable(f"i7000.{group}"), **_counts(checks)})
         properties = ET.SubElement(suite, "properties")
         for name, value in _properties(report):
             ET.SubElement(properties, "property", name=name, value=_printable(value))
@@ -98,8 +100,8 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
     case = ET.SubElement(
         suite,
         "testcase",
-        classname=f"i7000.{group}",
-        name=name,
+        classname=_printable(f"i7000.{group}"),
+        name=_printable(name),
         time=f"{seconds:.3f}" if isinstance(seconds, int | float) else "0",
     )
     if check.verdict in _FAILURES or check.verdict == Verdict.ERROR.value:
@@ -126,9 +128,9 @@ def _printable(text: str) -> str:
 
 # --- pytest -----------------------------------------------------------------------------------------------------------
 
-_HEAD = '''"""The checks that {what} did not pass, as tests: ``pytest {name}``.
+_HEAD = '''"""The checks that {what} did not pass, as tests for pytest.
 
-They need the target {target}; the environment variable I7000_TARGET names another one.
+They need the module at `TARGET`; the environment variable I7000_TARGET names another one.
 """
 
 import os
@@ -151,16 +153,15 @@ def test_the_module_passes(check: str) -> None:
 '''
 
 
-def pytest_file(report: Report, name: str) -> str:
-    """Return a file for pytest that repeats what did not pass; `name` is that of the file."""
+def pytest_file(report: Report) -> str:
+    """Return a file for pytest that repeats what did not pass."""
     failed = [check.id for check in report.checks if check.verdict in _FAILURES]
     target = str(report.start.get("target"))
     options = reproduction(report, "").removeprefix(f"i7000 check {quote(target)} ").strip()
-    model = report.module.get("model")
+    model = str(report.module.get("model"))
     rows = "".join(f"    {check!r},\n" for check in failed)
     return _HEAD.format(
-        what=model if isinstance(model, str) else "the module",
-        name=name,
+        what=model if model in _MODELS else "the module",
         target=target,
         options=options,
         failed=f"[\n{rows}]" if rows else "[]",

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from random import Random
-from traceback import extract_tb
 
 from attrs import evolve
 
@@ -370,8 +369,11 @@ def _whereabouts(state: State) -> tuple[object, ...]:
 
 def _internal(error: Exception) -> str:
     """Return what went wrong in this program, and where."""
-    *_, last = extract_tb(error.__traceback__)
-    return f"internal error: {type(error).__name__}: {error} ({last.name}, line {last.lineno})"
+    place = error.__traceback__
+    while place is not None and place.tb_next is not None:
+        place = place.tb_next
+    where = "" if place is None else f" ({place.tb_frame.f_code.co_name}, line {place.tb_lineno})"
+    return f"internal error: {type(error).__name__}: {error}{where}"
 
 
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
