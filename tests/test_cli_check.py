@@ -93,7 +93,7 @@ dcon
     repeated  FAIL, FAIL
     required  {REQUIRED}
     repeat    i7000 check sim:I-7018 dcon/2.38/reply --seed 3 --timeout-scale 2
-  dcon/2.38/reply-n1                       PASS             408 ms  2, 2.38
+  dcon/2.38/reply-n1                       PASS             361 ms  2, 2.38
 2 PASS, 1 FAIL
 """
     )
@@ -631,7 +631,7 @@ def result(received: bytes, right: bytes) -> CheckResult:
         (
             b"!01",
             b"!0100",
-            ["received  21 30 31                                         !01", "         ^^ 30 is missing"],
+            ["received  21 30 31 ", "         ^^ 30 is missing"],
         ),
         (b"!0100", b"!01", ["         ^^ too many bytes"]),
         (b"!01", b"!01", []),

@@ -50,7 +50,7 @@ th { font-weight: 600; overflow-wrap: normal; } .facts th { width: 8rem; }
 .scroll { overflow-x: auto; }
 .v { font-weight: 600; white-space: nowrap; } .pass { color: var(--pass); } .fail { color: var(--fail); }
 .warn { color: var(--warn); } .info { color: var(--info); } .skip { color: var(--skip); }
-.matrix { display: grid; grid-template-columns: repeat(auto-fill, minmax(11rem, 1fr)); gap: .4rem; }
+.matrix { display: grid; grid-template-columns: repeat(auto-fill, minmax(11rem, 1fr)); gap: .4rem; align-items: start; }
 .matrix div { border: 1px solid var(--line); border-radius: .3rem; padding: .3rem .5rem; background: var(--card); }
 .matrix a { text-decoration: none; font-size: 1.1rem; } .matrix b { margin-right: .3rem; }
 details { border: 1px solid var(--line); border-radius: .3rem; margin: .35rem 0; background: var(--card); }
@@ -62,7 +62,7 @@ summary .v { min-width: 8.5rem; } summary .id { font-family: ui-monospace, monos
   border: 0; padding: .1rem .3rem; } .log th, .log td.at { display: none; }
   .stack tr { display: block; border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .stack td { display: block; border: 0; padding: .05rem .3rem; } .stack th { display: none; }
-  .facts th { width: 5.5rem; } .matrix { grid-template-columns: 1fr; } }
+  .facts th { width: 5.5rem; } .matrix { grid-template-columns: 1fr 1fr; } }
 @media print { body { max-width: none; font-size: 11px; } details { break-inside: avoid; border: 0; }
   .matrix { grid-template-columns: repeat(6, 1fr); } }
 """
