@@ -51,7 +51,7 @@ class Subject:
     guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
     """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
-    """How many frames may still change the EEPROM."""
+    """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
     @property
     def protocol(self) -> Protocol:
@@ -128,9 +128,20 @@ class Subject:
         """
         self.guard, hazards = self.guard.judged(wire, self.line)
         if hazards & _STORED:
-            if not self.writes_left:
-                raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
+            self._count(self.twin.hear(wire, self.now)[0])
+
+    def _count(self, after: Twin) -> None:
+        if after.state.eeprom != self.twin.state.eeprom:
+            self.reserve(1)
             self.writes_left -= 1
+
+    def reserve(self, writes: int) -> None:
+        """Make sure that a change of settings can be made and taken back.
+
+        Errors: `Skipped` if the run has not so many writes left.
+        """
+        if self.writes_left < writes:
+            raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are used up")
 
     def wait(self, seconds: float) -> Procedure[None]:
         """Wait for so many seconds."""
@@ -178,7 +189,9 @@ class Subject:
 
     def hear(self, wire: bytes) -> Answer:
         """Give the twin a frame that is sent to the module, and return its answer."""
-        self.twin, answer = self.twin.hear(wire, self.now)
+        after, answer = self.twin.hear(wire, self.now)
+        self._count(after)
+        self.twin = after
         return answer
 
     def decoded(self, answer: Answer, heard: bytes) -> Any:  # noqa: ANN401 - any response
