@@ -3,3 +3,11 @@
 ``python -m tests.conformance.zoo NAME`` plays one on standard input and output: a target for ``exec:``. Without a name
 it lists them.
 """
+
+from tests.conformance.zoo import dcon_animals
+from tests.conformance.zoo.species import Species
+
+
+def zoo() -> dict[str, Species]:
+    """Return all animals, by their names."""
+    return {**dcon_animals.HERD.animals}
