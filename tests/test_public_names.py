@@ -10,12 +10,12 @@ import attrs
 import pytest
 
 import i7000
-from i7000 import dcon, device, host, modbus
+from i7000 import conformance, dcon, device, host, modbus
 from i7000.dcon.codec import COMMANDS
 from i7000.host import procedures
 from tests.spec.lint import SPEC, rows
 
-MODULES = [i7000, dcon, modbus, device, host, procedures]
+MODULES = [i7000, conformance, dcon, modbus, device, host, procedures]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)

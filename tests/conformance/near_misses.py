@@ -23,7 +23,7 @@ def commands() -> tuple[bytes, ...]:
     for vector in (it.values[0] for it in dcon_vectors("response", "refused", "silence")):
         profile = evolve(profile_of(vector["profile"]), checksum=False)
         found.add(dcon.encode(message_of(vector["command"]), profile, force=True)[:-1])
-    return tuple(sorted(found))
+    return (*sorted(found), *(b"$014",) * 8)
 
 
 @cache
@@ -40,7 +40,8 @@ def requests() -> tuple[bytes, ...]:
         elif row.access is not Access.READ:
             found.add(modbus.WriteSingleRegister(0x01, row.address, 1))
             found.add(modbus.WriteMultipleRegisters(0x01, row.address, (0,) * row.count))
-    return tuple(sorted({wire[:-2] for wire in wires | {modbus.encode(it) for it in found}}))
+    bodies = {wire[:-2] for wire in wires | {modbus.encode(it) for it in found}}
+    return (*sorted(bodies), *(modbus.encode(modbus.ReadCoils(0x01, 272, 1))[:-2],) * 8)
 
 
 _READERS: dict[Area, Callable[..., Any]] = {
@@ -83,6 +84,7 @@ def half_as_fast(chance: Random, frame: bytes) -> bytes:
     return bytes(sent)
 
 
+SLOW_ADDRESS = 0x88
 SLOW_COMMANDS = (b"~**\r", b"~88I\r", b"~88OHI\r", b"~88O8\r", b"~88OXYZ\r")
 """Commands whose bytes all have bit 3 set."""
 

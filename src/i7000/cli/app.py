@@ -15,6 +15,7 @@ from i7000.cli.decode import decode
 from i7000.cli.diff import diff
 from i7000.cli.encode import encode
 from i7000.cli.errata import errata
+from i7000.cli.fuzz import fuzz
 from i7000.cli.listen import listen
 from i7000.cli.options import address_of
 from i7000.cli.provoke import provoke
@@ -46,7 +47,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    check, report, replay, provoke, coverage, vectors,
+    check, report, replay, provoke, coverage, vectors, fuzz,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())

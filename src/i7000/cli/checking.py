@@ -54,7 +54,7 @@ def run(asked: Asked, wishes: Wishes) -> int:
     def body(open_line: OpenLine) -> int:
         return _Checking(asked, wishes, settings, printer, wire).examine(open_line)
 
-    return at_port(asked, body, wire.observe, allowed=settings.options.allowed)
+    return at_port(asked, body, wire.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
 
 
 @define

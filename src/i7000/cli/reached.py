@@ -20,10 +20,8 @@ from i7000.cli.stored import stored_settings
 from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
-from i7000.conformance import Hazard
 from i7000.host.procedures import Identified, Procedure, identify
 from i7000.link import Line, LinkError, Observed, Port
-from i7000.link.guarded import GuardedPort
 
 __all__ = ["OpenLine", "Reached", "given_profile", "reach", "run"]
 
@@ -70,22 +68,19 @@ def run(
     body: Callable[[OpenLine], int],
     observe: Callable[[Observed], object] | None = None,
     *,
-    allowed: frozenset[Hazard] | None = None,
+    guard: Callable[[Port], Port] = lambda port: port,
 ) -> int:
     """Open the port of a module, do the work of a command, and return the exit code.
 
-    Shape: with `allowed`, whatever is sent passes a guard that refuses the rest.
-
+    Shape: `guard` returns the port that the line gets, such as a `GuardedPort` of the one that was opened.
     Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
     """
     with broken_off_by_signals() as ending:
         try:
             with ExitStack() as stack:
                 with ending.breakable():
-                    port: Port = stack.enter_context(opened(asked.target, asked.settings))
-                if allowed is not None:
-                    port = GuardedPort(port, allowed)
-                line = Line(port, asked.settings, asked.policy, echo=asked.echo, observe=observe)
+                    port = stack.enter_context(opened(asked.target, asked.settings))
+                line = Line(guard(port), asked.settings, asked.policy, echo=asked.echo, observe=observe)
                 return body(OpenLine(line, ending))
         except LinkError as error:
             raise LineError(error) from None

@@ -47,6 +47,7 @@ def replay(  # noqa: PLR0913 - each of them is an option
     from i7000.conformance import GuardError  # noqa: PLC0415 - it takes time
     from i7000.conformance.replay import replay as replaying  # noqa: PLC0415 - it takes time
     from i7000.conformance.report import ReportError, read_report  # noqa: PLC0415 - it takes time
+    from i7000.link.guarded import GuardedPort  # noqa: PLC0415 - it takes time
 
     if not 0.1 <= timeout_scale <= 100:
         raise UsageError(f"--timeout-scale {timeout_scale:g}: give 0.1 to 100")
@@ -77,7 +78,8 @@ def replay(  # noqa: PLR0913 - each of them is an option
         return 1 if different else 0
 
     asked = asked_of(target or str(report.start.get("target")), line, asking, DEFAULT_ONE, UNKNOWN)
-    return at_port(asked, body, allowed=allowed_of(allow))
+    allowed = allowed_of(allow)
+    return at_port(asked, body, guard=lambda port: GuardedPort(port, allowed))
 
 
 def _lines(result: "Replayed") -> list[list[tuple[str, str]]]:

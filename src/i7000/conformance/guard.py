@@ -11,7 +11,7 @@ any frame needs to be completed.
 True
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import NamedTuple
 
@@ -45,7 +45,9 @@ class GuardError(I7000Error):
         settings of the modules that would carry it out.
     """
 
-    def __init__(self, wire: bytes, hazards: frozenset[Hazard], before: bytes, line: LineSettings, own: bool) -> None:  # noqa: FBT001
+    def __init__(
+        self, wire: bytes, hazards: frozenset[Hazard], before: bytes, line: LineSettings, *, own: bool
+    ) -> None:
         super().__init__(wire, hazards, before, line, own)
         self.wire = wire
         self.hazards = hazards
@@ -114,8 +116,7 @@ class Guard:
             refused = hazards - self.allowed - _HARMLESS
             if refused:
                 before = rests[place].frame or rests[place].text
-                own = _UARTS[place].sounds_like(Uart.of(line))
-                raise GuardError(wire, refused, before, _LINES[place], own)
+                raise GuardError(wire, refused, before, _LINES[place], own=place == _ends(line)[1])
             rests[place] = rest
             found |= hazards
         return Guard(self.allowed, rests=tuple(rests)), found
@@ -124,27 +125,23 @@ class Guard:
         """Return the guard after a silence that ends every Modbus frame; text stays, for DCON has no timeout."""
         return Guard(self.allowed, rests=tuple([Rest(rest.text) for rest in self.rests]))
 
-    def _heard(self, wire: bytes, line: LineSettings) -> list[tuple[frozenset[Hazard], int, Rest]]:
-        """Return the hazards at each line setting at which something is received, its place, and the new rest."""
-        uart, receivers = _ends(line)
-        levels = levels_of(wire, uart)
-        found = []
-        for place, receive in enumerate(receivers):
-            rest = self.rests[place]
-            if receive is None:
-                hazards, after = _lenient(rest, wire)
-                found.append((hazards, place, after))
-            elif heard := receive(levels):
-                hazards, after = _strict(rest, heard)
-                found.append((hazards, place, after))
-        return found
+    def _heard(self, wire: bytes, line: LineSettings) -> Iterator[tuple[frozenset[Hazard], int, Rest]]:
+        """Yield the hazards at each line setting at which something is received, its place, and the new rest."""
+        sent, own, others = _ends(line)
+        yield _lenient(self.rests[own], wire, own)
+        levels = levels_of(wire, sent)
+        for place, receive in others:
+            heard = receive(levels)
+            if heard:
+                yield _strict(self.rests[place], heard, place)
 
 
 @cache
-def _ends(line: LineSettings) -> tuple[Uart, tuple[Callable[[bytes], bytes] | None, ...]]:
-    """Return the host's end of the line, and what makes each other end receive; None if it receives what is sent."""
+def _ends(line: LineSettings) -> tuple[Uart, int, tuple[tuple[int, Callable[[bytes], bytes]], ...]]:
+    """Return the host's end of the line, the place that hears the same, and what makes each other place receive."""
     sent = Uart.of(line)
-    return sent, tuple([None if uart.sounds_like(sent) else receiver(sent, uart) for uart in _UARTS])
+    own = next(place for place, uart in enumerate(_UARTS) if uart.sounds_like(sent))
+    return sent, own, tuple([(at, receiver(sent, uart)) for at, uart in enumerate(_UARTS) if at != own])
 
 
 def hazards_of(wire: bytes, line: LineSettings = LineSettings()) -> frozenset[Hazard]:  # noqa: B008 - frozen
@@ -164,7 +161,7 @@ def _checked(wire: bytes, line: LineSettings) -> bytes:
     return wire
 
 
-def _lenient(rest: Rest, wire: bytes) -> tuple[frozenset[Hazard], Rest]:
+def _lenient(rest: Rest, wire: bytes, place: int) -> tuple[frozenset[Hazard], int, Rest]:
     """Return what modules with the line settings of the host could do, and what is unfinished then."""
     text = rest.text + wire.translate(HEARD_AS)
     frame, new = rest.frame + wire, len(rest.frame)
@@ -174,16 +171,16 @@ def _lenient(rest: Rest, wire: bytes) -> tuple[frozenset[Hazard], Rest]:
     starts = tuple([start for start in (*rest.starts, new) if not begins_nothing(frame[start:])])
     if any(is_frame(frame[start:]) for start in starts):
         starts = ()
-    return found, _rest(text, frame, starts)
+    return found, place, _rest(text, frame, starts)
 
 
-def _strict(rest: Rest, heard: bytes) -> tuple[frozenset[Hazard], Rest]:
+def _strict(rest: Rest, heard: bytes, place: int) -> tuple[frozenset[Hazard], int, Rest]:
     """Return what modules with other line settings could do, and what is unfinished then."""
     text, frame = rest.text + heard.translate(HEARD_AS), rest.frame + heard
     found = hazards_of_modules(frame, len(rest.frame))
     if b"\r" in text:
         found |= hazards_in_text(text[: text.rindex(b"\r") + 1])
-    return found, _rest(text, frame, ())
+    return found, place, _rest(text, frame, ())
 
 
 def _rest(text: bytes, frame: bytes, starts: tuple[int, ...]) -> Rest:

@@ -25,6 +25,8 @@ Hazards = frozenset[Hazard]
 
 HARMLESS: Hazards = frozenset({Hazard.OBSERVE})
 _CRC = 2
+_LONGEST = 0x100 + 12
+"""The length of the longest request: function 17 with 255 counted bytes."""
 _MASK_BYTES = (1, 2, 3)
 _ITEMS = 0x10000
 _TEXT = bytes((*range(0x20, 0x7F), 0x0D))
@@ -71,14 +73,17 @@ def _reading(area: Area) -> Callable[[bytes], Hazards]:
 
 
 def _writing(area: Area, start_at: int, items_a_byte: float = 0) -> Callable[[bytes], Hazards]:
-    """Return the hazards of writing items; with `items_a_byte`, the start is followed by a count and a byte count."""
+    """Return the hazards of writing items; with `items_a_byte`, the start is followed by a count and a byte count.
+
+    Special: as many items are written as the count has, or as the bytes need that are counted: the larger number.
+    """
     of_items = {address: hazard for (found, address), hazard in hazards_of_writes().items() if found is area}
 
     def hazards(frame: bytes) -> Hazards:
         start, count = _word(frame, start_at), 1
         if items_a_byte:
             counted = frame[start_at + 4] if len(frame) > start_at + 4 else 0
-            count = max(1, _word(frame, start_at + 2), int(counted * items_a_byte))
+            count = max(1, _word(frame, start_at + 2), int((counted - 1) * items_a_byte) + 1)
         worse = [it for place, it in of_items.items() if (place - start) % _ITEMS < count]
         return frozenset(worse if len(worse) == count else (*worse, Hazard.WRITE))
 
@@ -138,8 +143,8 @@ def begins_nothing(frame: bytes) -> bool:
 
 
 def is_frame(frame: bytes) -> bool:
-    """Return whether bytes have the right CRC."""
-    return len(frame) >= SHORTEST_FRAME and not crc_of(frame)
+    """Return whether bytes have the right CRC, and no more bytes than a request can count."""
+    return SHORTEST_FRAME <= len(frame) <= _LONGEST and not crc_of(frame)
 
 
 def hazards_at(frame: bytes, *, whole_body: bool) -> Hazards:
@@ -167,12 +172,12 @@ def hazards_with_crc(heard: bytes, new: int) -> Hazards:
     found = HARMLESS
     for code in _CODES.finditer(heard, 1):
         start = code.start() - 1
-        frame = heard[start:]
+        frame = heard[start : start + _LONGEST]
         function = _function_of(frame)
         if function is None or len(frame) < function.known:
             continue
         lengths = function.lengths(frame)
-        if start >= new:
+        if start >= new and start + _LONGEST >= len(heard):
             lengths += (len(frame),)
         found |= _hazards_of_frame(frame, function, [length for length in lengths if length > new - start])
     return found
@@ -185,7 +190,7 @@ def hazards_of_modules(heard: bytes, new: int) -> Hazards:
         start = code.start() - 1
         if start + _LONGEST_SHORT <= new and heard[start + 1] not in _LONG:
             continue
-        frame = heard[start:]
+        frame = heard[start : start + _LONGEST]
         function = _function_of(frame)
         if function is not None:
             lengths = function.lengths(frame)

@@ -48,7 +48,7 @@ def judge(
         that is unknown.
     Errors: `ArgumentError`.
 
-    >>> from i7000.dissect import hear_frame
+    >>> from i7000.dissect import Line, hear_frame
     >>> line, heard = hear_frame(Line(), b"$01m\r", Protocol.DCON)
     >>> state, (finding,) = judge(Judge(), heard, line.knowledge)
     >>> finding.rule.id, finding.what

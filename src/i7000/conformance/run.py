@@ -15,14 +15,14 @@ from random import Random
 from attrs import evolve
 
 from i7000.conformance.checks import STEPS
-from i7000.conformance.guard import Guard, GuardError
+from i7000.conformance.guard import GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Difference, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom
-from i7000.errors import InvalidValueError
+from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
 from i7000.host.procedures import BytesHeard, Procedure, Result, Tell
@@ -247,7 +247,6 @@ class Run:
             self.options.timeout_scale,
             Random(f"{self.options.seed} {statement.id}"),  # noqa: S311 - repeatable
             self.now or 0.0,
-            Guard(self.options.allowed),
             self.options.writes - self.writes,
         )
         before = subject.writes_left
@@ -255,12 +254,17 @@ class Run:
         answer: object = None
         started = self.now
         steps = STEPS[statement.id](subject)
+        refusal: I7000Error | None = None
         verdict, reason = Verdict.PASS, None
         try:
             while True:
-                step = steps.send(answer)
+                step = steps.throw(refusal) if refusal else steps.send(answer)
+                refusal = None
                 self.place = subject.twin
-                answer = yield step
+                try:
+                    answer = yield step
+                except I7000Error as error:
+                    answer, refusal = None, error
                 heard = heard or _is_evidence(answer)
                 if isinstance(answer, BytesHeard):
                     self.now = answer.now

@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 from attrs import define, field
 
 from i7000 import dcon, modbus
-from i7000.conformance.guard import Guard
-from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
+from i7000.conformance.guard import hazards_of
+from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Answer, Twin, difference
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
@@ -48,8 +48,6 @@ class Subject:
     chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
     now: float = 0.0
     """The time of the line at the end of the last step."""
-    guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
-    """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
@@ -122,12 +120,11 @@ class Subject:
         return heard
 
     def _admit(self, wire: bytes) -> None:
-        """Check bytes with the guard, and count those that can change the EEPROM.
+        """Count bytes with which the module changes its EEPROM.
 
-        Errors: `GuardError`; `Skipped` if all writes of the run are used up.
+        Errors: `Skipped` if all writes of the run are used up.
         """
-        self.guard, hazards = self.guard.judged(wire, self.line)
-        if hazards & _STORED:
+        if hazards_of(wire, self.line) & _STORED:
             self._count(self.twin.hear(wire, self.now)[0])
 
     def _count(self, after: Twin) -> None:

@@ -125,25 +125,40 @@ def _characters(uart: Uart) -> tuple[bytes, ...]:
 @lru_cache(maxsize=1024)
 def receiver(sent: Uart, heard: Uart) -> Callable[[bytes], bytes]:
     """Return the function that makes what an end with settings `heard` receives from the `levels_of` another end."""
-    rate = sent.rate * _steps_of(sent)
     count = heard.data_bits + 2 + (heard.parity != "N")
-    samples = [(2 * bit + 1) * rate // (2 * heard.rate) for bit in range(count)]
-    length = -((1 - 2 * count) * rate // (2 * heard.rate))
+    sampled = _sampler(sent.rate * _steps_of(sent), heard.rate, count)
 
     @lru_cache(maxsize=8192)
-    def character(levels: bytes) -> int | None:
-        size = len(levels)
-        _, *bits = [at >= size or levels[at] for at in samples]
-        value = sum(bit << at for at, bit in enumerate(bits[: heard.data_bits]))
+    def value_of(bits: bytes) -> int | None:
+        value = sum(bit << at for at, bit in enumerate(bits[1 : 1 + heard.data_bits]))
         right = bits[-1] and (heard.parity == "N" or bits[-2] == heard.parity_bit(value))
         return value if right else None
 
-    found = _finder(samples[0], samples[-1] + 1, length)
-
     def receive(levels: bytes) -> bytes:
-        return bytes([value for value in map(character, found(levels)) if value is not None])
+        return bytes([value for value in map(value_of, sampled(levels)) if value is not None])
 
     return receive
+
+
+@lru_cache(maxsize=1024)
+def _sampler(rate: int, heard_rate: int, count: int) -> Callable[[bytes], tuple[bytes, ...]]:
+    """Return the function that samples the `count` bits of each character on a line with `rate` levels a second."""
+    samples = [(2 * bit + 1) * rate // (2 * heard_rate) for bit in range(count)]
+    found = _finder(samples[0], samples[-1] + 1, -((1 - 2 * count) * rate // (2 * heard_rate)))
+    step = rate // heard_rate
+
+    @lru_cache(maxsize=8192)
+    def picked(levels: bytes) -> bytes:
+        size = len(levels)
+        return bytes([at >= size or levels[at] for at in samples])
+
+    @lru_cache(maxsize=4)
+    def sampled(levels: bytes) -> tuple[bytes, ...]:
+        if rate != step * heard_rate:
+            return tuple(map(picked, found(levels)))
+        return tuple([levels[samples[0] :: step].ljust(count, b"\1") for levels in found(levels)])
+
+    return sampled
 
 
 def _finder(start_bit: int, width: int, length: int) -> Callable[[bytes], Iterable[bytes]]:

@@ -12,6 +12,7 @@ from functools import partial
 from types import TracebackType
 from typing import Self, TypeVar, Unpack
 
+from i7000.errors import I7000Error
 from i7000.host import Bus, Outcome, Policy
 from i7000.host.procedures import PowerCycle, Procedure, Tune, Wait
 from i7000.link.conversation import SWITCHED, Act, Acts, Conversation, Read, Write
@@ -145,7 +146,14 @@ class AsyncLine:
             try:
                 act = next(acts)
                 while True:
-                    act = acts.send(await self._do(act))
+                    try:
+                        done = await self._do(act)
+                    except LinkError:
+                        raise
+                    except I7000Error as refusal:
+                        act = acts.throw(refusal)
+                    else:
+                        act = acts.send(done)
             except StopIteration as end:
                 value: T = end.value
                 return value

@@ -9,13 +9,14 @@ called again: the line goes on without it.
 
 import logging
 from collections.abc import Callable, Generator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from attrs import evolve, frozen
 
-from i7000.errors import Noise
+from i7000.errors import I7000Error, Noise
 from i7000.host import Bus, Ended, Late, Outcome, Policy, Rejected, Transmit, abandon, next_deadline, receive, send
-from i7000.host.procedures import Ask, BytesHeard, PowerCycle, Procedure, Result, SendBytes, Tune, Wait
+from i7000.host.procedures import Ask, BytesHeard, PowerCycle, Procedure, Result, SendBytes, Tell, Tune, Wait
+from i7000.link.errors import LinkError
 from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
 from i7000.message import Query, Response
 from i7000.profile import Profile
@@ -159,35 +160,49 @@ class Conversation:
     def run(self, procedure: Procedure[T], tell: Callable[[object], object] | None) -> Acts[T]:
         """Carry out the steps of a procedure, and return its result.
 
-        Special: a procedure that does not get to its end leaves the line settings as they were before it.
+        Special: a procedure that does not get to its end leaves the line settings as they were before it. What is
+            wrong with a step, such as a command that the module does not have, is raised in the procedure.
         """
         before = Tune(self.bus.line)
         answer: Result[Response] | BytesHeard | bool | None = None
+        refusal: I7000Error | None = None
         try:
             while True:
                 try:
-                    step = procedure.send(answer)
+                    step = procedure.throw(refusal) if refusal else procedure.send(answer)
                 except StopIteration as end:
                     value: T = end.value
                     return value
-                answer = None
-                if isinstance(step, Ask):
-                    answer = yield from self.ask(step.command, step.profile, step.policy)
-                elif isinstance(step, SendBytes):
-                    answer = yield from self.send_bytes(step)
-                elif isinstance(step, PowerCycle):
-                    answer = yield from self.power_cycle(step)
-                elif isinstance(step, Tune):
-                    yield from self.tune(step)
-                elif isinstance(step, Wait):
-                    yield from self.wait(step)
-                elif tell:
-                    tell(step.value)
+                answer, refusal = None, None
+                if isinstance(step, Tell):
+                    if tell:
+                        tell(step.value)
+                    continue
+                try:
+                    answer = yield from self._step(step)
+                except LinkError:
+                    raise
+                except I7000Error as error:
+                    refusal = error
         except BaseException:
             self._left = before
             raise
         finally:
             procedure.close()
+
+    def _step(self, step: Ask[Response] | SendBytes | PowerCycle | Tune | Wait) -> Acts[Any]:
+        """Carry out a step, and return what the procedure is sent for it."""
+        if isinstance(step, Ask):
+            return (yield from self.ask(step.command, step.profile, step.policy))
+        if isinstance(step, SendBytes):
+            return (yield from self.send_bytes(step))
+        if isinstance(step, PowerCycle):
+            return (yield from self.power_cycle(step))
+        if isinstance(step, Tune):
+            yield from self.tune(step)
+        else:
+            yield from self.wait(step)
+        return None
 
     def _heard(self, heard: bytes) -> float:
         """Return the time, after showing bytes."""

@@ -18,7 +18,7 @@ _SILENCE = 0.25
 """The silence in seconds after which no firmware waits for the rest of a Modbus frame."""
 _COUNTED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _LARGEST_BUDGET = 1_000_000
-_LINES = {
+_LINES: dict[tuple[int, str, float], LineSettings] = {
     (rate.bits_per_second, form.parity, form.stop_bits): LineSettings(rate, form)
     for rate in BaudRate
     for form in CharacterFormat
@@ -100,7 +100,7 @@ class GuardedPort:
     def __line(self) -> LineSettings:
         """Return the line settings that the port has now."""
         port = self.__port
-        line = _LINES.get((port.baudrate, port.parity, int(port.stopbits)))
+        line = _LINES.get((port.baudrate, port.parity, port.stopbits))
         if line is None or getattr(port, "bytesize", 8) != 8:
             given = f"{port.baudrate} baud {getattr(port, 'bytesize', 8)}{port.parity}{port.stopbits:g}"
             raise InvalidValueError("line", given, "1200 to 115200 baud, N81, N82, E81 or O81", "1.11")
@@ -173,10 +173,10 @@ class GuardedPort:
             raise AttributeError(f"{self.name} has no {name}", name=name, obj=self)
         method = getattr(self.__port, name)
 
-        def call(*arguments: float) -> object:
+        def call(*arguments: float, **options: bool) -> object:
             if name == "power_cycle":
                 self.__guard = Guard(self.__guard.allowed)
-            return method(*arguments)
+            return method(*arguments, **options)
 
         return call
 

@@ -5,7 +5,7 @@ from threading import Lock
 from types import TracebackType
 from typing import Self, TypeVar, Unpack
 
-from i7000.errors import StateError
+from i7000.errors import I7000Error, StateError
 from i7000.host import Bus, Outcome, Policy
 from i7000.host.procedures import PowerCycle, Procedure, Tune, Wait
 from i7000.link.conversation import SWITCHED, Act, Acts, Conversation, Read, Write
@@ -139,7 +139,14 @@ class Line:
         try:
             act = next(acts)
             while True:
-                act = acts.send(self._do(act))
+                try:
+                    done = self._do(act)
+                except LinkError:
+                    raise
+                except I7000Error as refusal:
+                    act = acts.throw(refusal)
+                else:
+                    act = acts.send(done)
         except StopIteration as end:
             value: T = end.value
             return value
