@@ -184,6 +184,8 @@ class Run:
         """The frames so far that may have changed the EEPROM."""
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
+        self._answering = False
+        """Whether the module answered what was sent last."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
         self._planned = {it.statement.id for it in planned}
         self._verdicts: dict[str, Verdict] = {}
@@ -217,12 +219,13 @@ class Run:
         skip = one.skip or self._prerequisite(one.statement) or self._over()
         if skip:
             return CheckResult(one.statement, Verdict.SKIP, text=skip.text, reason=skip.reason)
-        result = yield from self._once(one.statement)
+        answering = self._answering
+        result = yield from self._once(one.statement, answering=answering)
         if result.verdict not in _REPEATED or not one.statement.hazards <= _READS:
             return result
         again: tuple[Verdict, ...] = ()
         while len(again) < _MOST_REPEATS:
-            again += ((yield from self._once(one.statement)).verdict,)
+            again += ((yield from self._once(one.statement, answering=answering)).verdict,)
         verdict = result.verdict if set(again) == {result.verdict} else Verdict.FLAKY
         return evolve(result, verdict=verdict, repeats=again)
 
@@ -240,14 +243,15 @@ class Run:
             return Skipped(SkipReason.BUDGET, f"the {limit:g} s of the run are over")
         return None
 
-    def _once(self, statement: Statement) -> Procedure[CheckResult]:
+    def _once(self, statement: Statement, *, answering: bool) -> Procedure[CheckResult]:
         subject = Subject(
             self.twin,
             self.line,
             self.options.timeout_scale,
             Random(f"{self.options.seed} {statement.id}"),  # noqa: S311 - repeatable
             self.now or 0.0,
-            self.options.writes - self.writes,
+            answering=answering,
+            writes_left=self.options.writes - self.writes,
         )
         before = subject.writes_left
         heard = False
@@ -268,6 +272,7 @@ class Run:
                 heard = heard or _is_evidence(answer)
                 if isinstance(answer, BytesHeard):
                     self.now = answer.now
+                    self._answering = bool(answer.wire)
                     self.began = answer.now if self.began is None else self.began
                     started = answer.now if started is None else started
         except StopIteration:

@@ -30,6 +30,9 @@ _TURNAROUND = 0.5
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
+_MORE_TRIES = 2
+_PAUSE = 0.3
+"""How often a module that answers no more is looked for, and the pause in seconds before that."""
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
 
@@ -48,6 +51,8 @@ class Subject:
     chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
     now: float = 0.0
     """The time of the line at the end of the last step."""
+    answering: bool = False
+    """Whether the module answered what was sent last before the check."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
 
@@ -233,16 +238,26 @@ class Subject:
     def alive(self, after: bytes) -> Procedure[None]:
         """Send the sentinel, whose answer must be right: else nothing can be said about the frame before it.
 
-        Errors: `Unclear` if it is not answered, `Difference` for another answer.
+        Errors: `Unclear` if it is not answered; `Difference` for another answer, and if the module answered when the
+            check began, and does not answer any more.
         """
         wire = self.wire(self.sentinel)
         answer = self.hear(wire)
         heard = (yield from self.send(wire)).wire
         if not heard:
-            raise Unclear("the module does not answer a plain read after it", sent=after + wire)
+            yield from self._lost(after + wire)
         if heard != answer.wire:
             text = "the next request has another answer"
             raise self.wrong(text, after + wire, heard, f"silence, then {_words(answer.wire or b'')}")
+
+    def _lost(self, sent: bytes) -> Procedure[None]:
+        """Look for the module again, and raise what its silence means: it answered before the check, if it did."""
+        wire = self.wire(self.sentinel)
+        for _ in range(_MORE_TRIES):
+            yield from self.wait(_PAUSE)
+            if not self.answering or (yield from self.send(wire)).wire:
+                raise Unclear("the module does not answer a plain read after it", sent=sent)
+        raise self.wrong("the module does not answer any more", sent, b"", "an answer to a plain read after it")
 
     def wrong(self, text: str, sent: bytes, received: bytes, expected: str) -> Difference:
         """Return the error of an answer that is not allowed."""

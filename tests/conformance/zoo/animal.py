@@ -135,6 +135,8 @@ class AnimalPort:
 
     def read(self, size: int = 1, /) -> bytes:
         """Return bytes, or none after the timeout."""
+        if not size:
+            return b""
         end = self._now + (self.timeout or 0.0)
         self._live(end)
         if not self._coming or self._coming[0][0] > end:

@@ -50,7 +50,7 @@ class _OtherSum(Animal):
         return super().step(state, frame, now)
 
 
-@HERD.animal("ignores-checksum", SUMMED, "frame/dcon/checksum-wrong frame/dcon/checksum-wrong-high-digit")
+@HERD.animal("ignores-checksum", SUMMED, "frame/dcon/checksum-wrong frame/dcon/checksum-wrong-high-digit", others=18)
 class IgnoresChecksum(_OtherSum):
     """The two digits of a checksum are dropped, not compared."""
 
@@ -134,8 +134,8 @@ HERD.add(
 )
 HERD.add(
     "answers-answers",
-    "The answer of another module is taken for a command and refused.",
-    hearing(rb"^[!>?].*", rb"$01Z"),
+    "The answer of another module is taken for a command.",
+    hearing(rb"^[!>?].*", rb"$01M"),
     PLAIN,
     "frame/dcon/answers-of-others",
 )
@@ -244,8 +244,13 @@ class OldAnswerRepeated(Animal):
 HERD.add("status-stuck", "The status of $AA4 is always 1.", saying(b"^>010", b">011"), PLAIN, "dcon/2.2/sampling",
          allow=[BROADCAST])  # fmt: skip
 HERD.add("configuration-without-filter", "The filter bit of the configuration is always 0.",
-         answering(lambda heard, said: said[:9] + b"%02X" % (int(said[9:11], 16) & 0x7F) if heard == b"$012" else said),
-         PLAIN, "dcon/2.1/set", allow=[COMM])  # fmt: skip
+         answering(lambda heard, said: _masked(said, 7, 0x7F) if heard == b"$012" else said),
+         PLAIN, "dcon/2.1/set", allow=[BROADCAST, COMM])  # fmt: skip
+
+
+def _masked(said: bytes, at: int, mask: int) -> bytes:
+    """Return an answer with some bits of a byte in hex."""
+    return said[:at] + b"%02X" % (int(said[at : at + 2], 16) & mask) + said[at + 2 :] if said[:1] == b"!" else said
 
 
 # --- readings ---------------------------------------------------------------------------------------------------------
@@ -272,7 +277,7 @@ HERD.add("hex-of-sign-and-amount", "A negative reading in hex is its amount with
          answering(_ones_complement), BIPOLAR, "values/hex", scale=-1.0)  # fmt: skip
 
 
-@HERD.animal("percent-of-the-wrong-span", BIPOLAR, "values/format-percent", allow=[COMM])
+@HERD.animal("percent-of-the-wrong-span", BIPOLAR, "values/format-percent", allow=[BROADCAST, COMM])
 class PercentOfTheWrongSpan(Animal):
     """Readings in percent are those of half the span."""
 
@@ -303,7 +308,7 @@ class TypeForgotten(Animal):
         return evolve(eeprom, type_codes=PLAIN.type_codes)
 
 
-@HERD.animal("format-forgotten", PLAIN, "init/kept-configuration", allow=[COMM])
+@HERD.animal("format-forgotten", PLAIN, "init/kept-configuration", allow=[BROADCAST, COMM])
 class FormatForgotten(Animal):
     """The data format is forgotten without power."""
 
@@ -311,7 +316,7 @@ class FormatForgotten(Animal):
         return _hex_format(eeprom, DataFormat.ENGINEERING)
 
 
-@HERD.animal("samples-kept", PLAIN, "init/no-samples", allow=[COMM, BROADCAST])
+@HERD.animal("samples-kept", PLAIN, "init/no-samples", allow=[BROADCAST, COMM])
 class SamplesKept(Animal):
     """What was sampled is there after power-on, or zeros."""
 
@@ -373,28 +378,26 @@ HERD.add("mode-not-stored", "The connecting mode is acknowledged and not set.", 
 # --- the host watchdog ------------------------------------------------------------------------------------------------
 
 
-HERD.add("watchdog-seems-off", "Bit 7 of the watchdog status is always 0.",
-         answering(lambda heard, said: b"!01%02X" % (int(said[3:5], 16) & 0x7F) if heard == b"~010" else said),
-         settings(M_7019R, host_watchdog_enabled=True, host_watchdog_timeout=255), "consistency/watchdog")  # fmt: skip
+HERD.add("watchdog-seems-on", "Bit 7 of the watchdog status is always 1.",
+         saying(b"^!01[0-7]", b"!018", to=rb"~010"), PLAIN, "consistency/watchdog")  # fmt: skip
 
 
-@HERD.animal("watchdog-in-seconds", PLAIN, "dcon/2.39/timeout", allow=[WRITE, COMM])
+@HERD.animal("watchdog-in-seconds", PLAIN, "dcon/2.39/timeout", allow=[BROADCAST, COMM])
 class WatchdogInSeconds(Animal):
     """The timeout of the host watchdog is in seconds, not in tenths."""
 
     def step(self, state: State, frame: bytes, now: float) -> tuple[State, bytes | None]:
-        timeout = state.eeprom.host_watchdog_timeout / 10
-        if state.eeprom.host_watchdog_enabled and now - self.fed < 10 * timeout:
-            state = state.keep(fed_at=state.clock) if state.clock <= now else state
-        if frame in {b"~**\r", b"~0131"} or frame.startswith(b"~0131"):
+        if frame.startswith(b"~0131") or frame == b"~**\r":
             self.fed = now
+        elif now - self.fed < state.eeprom.host_watchdog_timeout:
+            state = state.keep(fed_at=now)
         return super().step(state, frame, now)
 
     fed = 0.0
 
 
 HERD.add("host-ok-ignored", "~** does not restart the host watchdog.", hearing(rb"^~\*\*$", b"~**Z"), PLAIN,
-         "dcon/2.39/timeout-n1", allow=[WRITE, COMM, BROADCAST])  # fmt: skip
+         "dcon/2.39/timeout-n1", allow=[BROADCAST, COMM])  # fmt: skip
 HERD.add("watchdog-not-reset", "~AA1 does not clear the timeout of the host watchdog.", acknowledging(rb"~011$"),
          settings(M_7019R, host_watchdog_timed_out=True), "dcon/2.37/reset", allow=[WRITE])  # fmt: skip
 
@@ -417,7 +420,7 @@ HERD.add("calibrates-never", "The zero calibration of a channel is refused.", re
 # --- the line and INIT ------------------------------------------------------------------------------------------------
 
 
-@HERD.animal("baud-rate-without-init", PLAIN, "init/baud-refused", allow=[COMM])
+@HERD.animal("baud-rate-without-init", PLAIN, "init/baud-refused", allow=[BROADCAST, COMM])
 class BaudRateWithoutInit(Animal):
     """A baud rate is taken at once, without INIT switch and soft INIT."""
 
@@ -425,7 +428,7 @@ class BaudRateWithoutInit(Animal):
         return super().step(state.keep(soft_init_until=now + 1.0), frame, now)
 
 
-@HERD.animal("checksum-without-init", PLAIN, "init/checksum-refused", allow=[COMM])
+@HERD.animal("checksum-without-init", PLAIN, "init/checksum-refused", allow=[BROADCAST, COMM])
 class ChecksumWithoutInit(Animal):
     """The checksum is switched without INIT switch and soft INIT."""
 
@@ -436,7 +439,7 @@ class ChecksumWithoutInit(Animal):
         return super().step(state, frame, now)
 
 
-@HERD.animal("window-never-ends", PLAIN, "init/soft-init-baud-n1", allow=[COMM])
+@HERD.animal("window-never-ends", PLAIN, "init/soft-init-baud-n1", allow=[BROADCAST, COMM])
 class WindowNeverEnds(Animal):
     """Soft INIT does not end after its timeout."""
 
@@ -449,7 +452,7 @@ class WindowNeverEnds(Animal):
         return super().step(state.keep(soft_init_until=now + 1.0) if self.opened else state, frame, now)
 
 
-@HERD.animal("window-without-timeout", PLAIN, "init/soft-init-checksum-n1", allow=[COMM])
+@HERD.animal("window-without-timeout", PLAIN, "init/soft-init-checksum-n1", allow=[BROADCAST, COMM])
 class WindowWithoutTimeout(Animal):
     """Soft INIT begins with a timeout of 0 too."""
 
@@ -459,10 +462,10 @@ class WindowWithoutTimeout(Animal):
 
 
 HERD.add("no-soft-init", "Soft INIT is acknowledged and does nothing.", acknowledging(rb"~01I$"), PLAIN,
-         "init/soft-init-baud init/soft-init-checksum", allow=[COMM])  # fmt: skip
+         "init/soft-init-baud init/soft-init-checksum", allow=[BROADCAST, COMM])  # fmt: skip
 
 
-@HERD.animal("baud-rate-at-once", PLAIN, "init/switch-baud", allow=[COMM])
+@HERD.animal("baud-rate-at-once", PLAIN, "init/switch-baud", allow=[BROADCAST, COMM])
 class BaudRateAtOnce(Animal):
     """In INIT mode, a baud rate is used at once, not from the next power-on."""
 
@@ -473,7 +476,7 @@ class BaudRateAtOnce(Animal):
         return after, answer
 
 
-@HERD.animal("address-after-reset", PLAIN, "init/new-address", allow=[COMM])
+@HERD.animal("address-after-reset", PLAIN, "init/new-address", allow=[BROADCAST, COMM])
 class AddressAfterReset(Animal):
     """A new address counts only from the next power-on."""
 
@@ -482,7 +485,7 @@ class AddressAfterReset(Animal):
         return after.keep(address=state.ram.address), answer
 
 
-@HERD.animal("switch-ignored", PLAIN, "init/switch", allow=[COMM])
+@HERD.animal("switch-ignored", PLAIN, "init/switch", allow=[BROADCAST, COMM])
 class SwitchIgnored(Animal):
     """The INIT switch is not looked at."""
 
@@ -491,7 +494,7 @@ class SwitchIgnored(Animal):
         super().power_cycle(now, init_switch=False)
 
 
-@HERD.animal("switch-at-stored-address", PLAIN, "init/switch", allow=[COMM])
+@HERD.animal("switch-at-stored-address", PLAIN, "init/switch", allow=[BROADCAST, COMM])
 class SwitchAtStoredAddress(Animal):
     """With the INIT switch, the module has its stored address in place of 00."""
 
@@ -500,7 +503,7 @@ class SwitchAtStoredAddress(Animal):
         self.state = self.state.keep(address=self.state.eeprom.address)
 
 
-@HERD.animal("protocol-without-init", PLAIN, "dcon/2.26/refused", allow=[COMM])
+@HERD.animal("protocol-without-init", PLAIN, "dcon/2.26/refused", allow=[BROADCAST, COMM])
 class ProtocolWithoutInit(Animal):
     """$AAPN is taken without the INIT switch."""
 
