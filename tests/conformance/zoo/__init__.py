@@ -4,10 +4,13 @@
 it lists them.
 """
 
-from tests.conformance.zoo import dcon_animals
+from tests.conformance.zoo import dcon_animals, rtu_animals
 from tests.conformance.zoo.species import Species
 
 
 def zoo() -> dict[str, Species]:
     """Return all animals, by their names."""
-    return {**dcon_animals.HERD.animals}
+    return {
+        **{f"dcon/{name}": animal for name, animal in dcon_animals.HERD.animals.items()},
+        **{f"rtu/{name}": animal for name, animal in rtu_animals.HERD.animals.items()},
+    }
