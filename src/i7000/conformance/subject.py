@@ -27,8 +27,10 @@ R = TypeVar("R", bound=Response)
 
 _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
-_REFUSAL = 0.15
-"""How long a module that should be silent is listened to before the sentinel."""
+_REFUSAL = {Protocol.DCON: 0.15, Protocol.MODBUS_RTU: 0.3}
+"""The seconds that a module which should be silent is listened to before the sentinel: for Modbus so long that the guard
+does not see what is sent next as the end of it.
+"""
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _MORE_TRIES = 2
 _PAUSE = 0.3
@@ -209,7 +211,7 @@ class Subject:
         Errors: `Difference`, `Unclear`.
         """
         allowed = tuple(allowed)
-        heard = (yield from self.send(wire, seconds=_REFUSAL if None in allowed else _TURNAROUND)).wire
+        heard = (yield from self.send(wire, seconds=_REFUSAL[self.protocol] if None in allowed else _TURNAROUND)).wire
         if not heard:
             yield from self.alive(wire)
             if None in allowed:
@@ -230,7 +232,7 @@ class Subject:
     def _silent(self, pieces: Iterable[bytes | tuple[float, bytes]]) -> Procedure[None]:
         parts = tuple(pieces)
         sent = b"".join(piece[1] if isinstance(piece, tuple) else piece for piece in parts)
-        heard = (yield from self.send(*parts, seconds=_REFUSAL)).wire
+        heard = (yield from self.send(*parts, seconds=_REFUSAL[self.protocol])).wire
         if heard:
             raise self.wrong(f"answered {len(heard)} bytes", sent, heard, "silence")
         yield from self.alive(sent)

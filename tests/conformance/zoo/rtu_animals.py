@@ -141,8 +141,9 @@ HERD.add("answers-with-another-function", "Function 04 is answered with function
 HERD.add("bit-7-ignored", "A function code with bit 7 is carried out.",
          hearing(rb"^\x01([\x84\xc6])", lambda found: b"\1" + bytes((found[1][0] & 0x7F,))), PLAIN,
          "rtu/function/bit-7")  # fmt: skip
-HERD.add("function-02-everywhere", "An absent function 02 reads coils.", hearing(rb"^\x01\x02", b"\1\1"),
-         settings(Model.M_7018R, RTU), "rtu/function/absent")  # fmt: skip
+HERD.add("function-02-everywhere", "Function 02 reads coils where the firmware does not have it.",
+         answering(lambda heard, said: b"\1\2\1\0" if said[1:2] == b"\x82" else said),
+         settings(Model.M_7018R, RTU, "B1.0"), "rtu/function/absent")  # fmt: skip
 
 
 # --- counts and lengths -----------------------------------------------------------------------------------------------
@@ -151,9 +152,9 @@ HERD.add("function-02-everywhere", "An absent function 02 reads coils.", hearing
 HERD.add("byte-count-off", "The byte count counts itself.",
          answering(lambda heard, said: said[:2] + bytes((said[2] + 1,)) + said[3:] if said[1:2] == b"\3" else said),
          PLAIN, "rtu/03/counts", others=45)  # fmt: skip
-HERD.add("odd-bits-dropped", "Bits beyond whole bytes are left out.",
+HERD.add("odd-bits-dropped", "The last byte of several bits is left out if it is not full.",
          answering(lambda heard, said: said[:2] + bytes((len(said[3:-1]),)) + said[3:-1]
-                   if said[1:2] == b"\1" and heard[5] % 8 and heard[5] > 8 else said), PLAIN,
+                   if said[1:2] == b"\1" and heard[5] % 8 and heard[5] > 1 else said), PLAIN,
          "rtu/01/counts", others=6)  # fmt: skip
 HERD.add("one-byte-of-bits-more", "Eight bits are answered in two bytes.",
          answering(lambda heard, said: said[:2] + b"\2" + said[3:] + b"\0"
@@ -166,11 +167,11 @@ class ReadsOneMore(Animal):
 
     def step(self, state: State, frame: bytes, now: float) -> tuple[State, bytes | None]:
         after, answer = super().step(state, frame, now)
-        if answer and answer[1] == 0x84 and frame[1] == 4:
-            count = int.from_bytes(frame[4:6], "big") - 1
+        count = int.from_bytes(frame[4:6], "big") - 1
+        if answer and answer[1] == 0x84 and frame[1] == 4 and count > 0:
             shorter = frame[:4] + count.to_bytes(2, "big")
             _, less = super().step(state, modbus.seal(shorter), now)
-            if less and less[1] == 4 and count:
+            if less and less[1] == 4:
                 answer = modbus.seal(less[:2] + bytes((less[2] + 2,)) + less[3:-2] + b"\0\0")
         return after, answer
 
