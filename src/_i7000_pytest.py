@@ -1,4 +1,6 @@
-"""The pytest plugin (extra ``pytest``): fixtures with simulated modules for the tests of drivers.
+"""The pytest plugin (extra ``pytest``): fixtures with simulated modules for drivers, and checks of modules.
+
+With ``--i7000-target TARGET`` every check of the conformance kit is a test of the module at that port.
 
 It is outside the package because pytest imports it in every run where i7000 is installed. It imports nothing but
 pytest; the rest is imported by the first test that uses a fixture.
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from i7000.device import Eeprom
-    from i7000.link import VirtualPort
+    from i7000.link import Bench, VirtualPort
     from i7000.simulator import Faults, RunningSimulator, Simulated
 
 _MARKER = "i7000"
@@ -22,8 +24,148 @@ _USAGE = '@pytest.mark.i7000("M-7019R,type=K", signals=["all=25degC"], faults=["
 _OPTIONS = ("signals", "faults", "seed", "over")
 
 
+_BENCH = pytest.StashKey["Bench"]()
+_SKIPPED = "SKIP", "INCONCLUSIVE"
+_PASSED = "PASS", "INFO"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options for the checks of a module."""
+    group = parser.getgroup("i7000", "checks of ICP DAS I-7000/M-7000 modules")
+    group.addoption(
+        "--i7000-target",
+        metavar="TARGET",
+        help="check the module at this port: a device, socket://HOST:PORT, sim:MODEL or exec:COMMAND",
+    )
+    group.addoption("--i7000-address", metavar="ADDRESS", type=int, default=1, help="its address, 1 unless given")
+    group.addoption(
+        "--i7000-model", metavar="MODEL", help="its model, such as M-7019R; it is asked for it unless given"
+    )
+    group.addoption(
+        "--i7000-allow",
+        metavar="HAZARD",
+        action="append",
+        default=[],
+        choices=["write", "broadcast"],
+        help="also send what changes settings, which are restored (write), or what every module hears (broadcast)",
+    )
+
+
+def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Add the checks of the module at ``--i7000-target``."""
+    target = config.getoption("--i7000-target")
+    if target is None:
+        return
+    bench = config.stash[_BENCH] = _bench(target, config)
+    checks = _Checks.from_parent(session, name=target, nodeid="i7000")
+    applicable = [it for it in bench.planned if not (it.skip and it.skip.reason.value == "not-applicable")]
+    items += [_Check.from_parent(checks, name=it.statement.id) for it in applicable]
+
+
+def _bench(target: str, config: pytest.Config) -> Bench:
+    """Open the port, and ask the module what it is."""
+    from i7000 import I7000Error, Model  # noqa: PLC0415 - see above
+    from i7000.conformance.hazard import Hazard  # noqa: PLC0415
+    from i7000.link import Bench  # noqa: PLC0415
+
+    name = config.getoption("--i7000-model")
+    models = {model.value: model for model in Model}
+    if name is not None and name not in models:
+        raise pytest.UsageError(f"--i7000-model {name}: give one of {', '.join(models)}")
+    allow = [Hazard(text) for text in config.getoption("--i7000-allow")]
+    try:
+        return Bench(target, address=config.getoption("--i7000-address"), model=models.get(name), allow=allow)
+    except I7000Error as error:
+        raise pytest.UsageError(f"--i7000-target: {error}") from None
+
+
+class _Checks(pytest.Collector):
+    """The checks of a module."""
+
+    def collect(self) -> list[pytest.Item]:
+        """Return nothing: the checks are made when all tests are collected."""
+        return []
+
+
+class _FailedError(Exception):
+    """A check that the module did not pass."""
+
+
+class _Check(pytest.Item):
+    """A check as a test."""
+
+    def runtest(self) -> None:
+        """Carry out the check."""
+        result = self.config.stash[_BENCH].result(self.name)
+        verdict = result.verdict.value
+        if verdict in _SKIPPED:
+            pytest.skip(f"{verdict}: {result.text}")
+        if verdict == "WARN":
+            self.warn(pytest.PytestWarning(f"{self.name}: {result.text}"))
+        elif verdict not in _PASSED:
+            raise _FailedError(result)
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:  # noqa: ANN401
+        """Return why the check failed, in lines."""
+        if not isinstance(excinfo.value, _FailedError):
+            return super().repr_failure(excinfo, style)
+        result = excinfo.value.args[0]
+        statement = result.statement
+        rows = (
+            (result.verdict.value, result.text),
+            ("required", f"{statement.requirement} (manual {', '.join(statement.sections)})"),
+            ("sent", result.sent.hex(" ")),
+            ("received", result.received.hex(" ") or "nothing"),
+            ("expected", result.expected),
+        )
+        return "\n".join(f"{name:9} {text}" for name, text in rows if text)
+
+    def reportinfo(self) -> tuple[str, None, str]:
+        """Return the name of the check for reports."""
+        return "i7000", None, self.name
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:  # noqa: ANN401 - it has no public type
+    """Write what the checks proved, and how the module was left."""
+    bench = config.stash.get(_BENCH, None)
+    if bench is None:
+        return
+    proved = {section for it in bench.results if it.verdict.value == "PASS" for section in it.statement.sections}
+    passed = sum(it.verdict.value == "PASS" for it in bench.results)
+    terminalreporter.section(f"i7000: {bench.model.value}")
+    terminalreporter.write_line(f"{passed} of {len(bench.results)} checks passed; they prove {len(proved)} sections")
+    for words in config.stash.get(_LEFT, ()):
+        terminalreporter.write_line(words, red=True)
+
+
+_LEFT = pytest.StashKey["tuple[str, ...]"]()
+_LEFT_CHANGED = 6
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Restore the module, and close the port."""
+    from i7000 import I7000Error  # noqa: PLC0415 - see above
+
+    bench = session.config.stash.get(_BENCH, None)
+    if bench is None:
+        return
+    try:
+        settled = bench.close()
+    except I7000Error as error:
+        words: tuple[str, ...] = (f"the module could not be restored: {error}",)
+    else:
+        silent = ("the module does not answer any more",) if settled.silent else ()
+        left = (f"the module was left changed: {', '.join(settled.left)}",) if settled.left else ()
+        words = (*silent, *left)
+    session.config.stash[_LEFT] = words
+    if words:
+        session.exitstatus = _LEFT_CHANGED
+
+
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker."""
+    """Register the marker, and refuse to check a module in several processes."""
+    if config.getoption("--i7000-target") and getattr(config.option, "numprocesses", None):
+        raise pytest.UsageError("--i7000-target: one process has the port: leave out --numprocesses")
     config.addinivalue_line(
         "markers",
         f"{_MARKER}(*models, signals=(), faults=(), seed=0, over=None): the modules of i7000_bus and i7000_port,"

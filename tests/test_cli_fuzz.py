@@ -35,9 +35,9 @@ class Fragile(VirtualPort):
                 self._bus = Bus(tuple(it.store(type_codes=(TypeCode.K,) * 8) for it in self._bus.modules))
         return len(data) if self.broken else super().write(data)
 
-    def power_cycle(self) -> None:
+    def power_cycle(self, *, init_switch: bool | None = None) -> None:
         self.broken = False
-        super().power_cycle()
+        super().power_cycle(init_switch=init_switch)
 
 
 @pytest.fixture
@@ -157,3 +157,10 @@ def test_wrong_usage_is_said_before_the_port_is_opened(arguments: tuple[str, str
 def test_a_module_that_is_not_there_is_an_error_of_the_line(run: Run) -> None:
     assert run("fuzz", "sim:I-7018,address=9", *QUICK).code == 3
     assert run("fuzz", "/dev/not-there").code == 3
+
+
+def test_a_module_that_cannot_be_identified_within_what_is_allowed_is_said(run: Run) -> None:
+    told = run("fuzz", "sim:M-7018,address=255,protocol=dcon,checksum=yes", "--address", "255", *QUICK)
+
+    assert told.code == 2
+    assert "cannot be identified within what is allowed: $FFP00" in told.err

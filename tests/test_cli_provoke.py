@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
+from threading import enumerate as threads
 from typing import Any
 
 import pytest
@@ -177,6 +178,17 @@ def test_no_scenario_begins_after_the_time_is_over(run: Run, monkeypatch: pytest
     assert (told.code, "no time was left: give a longer --max-time" in told.out) == (5, True)
 
 
+def test_a_scenario_is_played_again_while_its_failure_is_doubtful(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    doubtful = Judgement(Verdict.FAIL, (Finding(Kind.WRONG, 1.0, "x"),), "doubtful")
+    judged = iter([doubtful, Judgement(Verdict.PASS), doubtful, doubtful, doubtful])
+    monkeypatch.setattr(provoking, "judge", lambda _: next(judged))
+
+    codes = [run("provoke", "--scenario", "echo", "--patience", "0.3", "--", "true", "{target}").code for _ in range(2)]
+
+    assert codes == [0, 1]
+    assert list(judged) == []
+
+
 # --- drivers that somebody else starts --------------------------------------------------------------------------------
 
 
@@ -253,6 +265,8 @@ def test_the_output_of_another_driver_is_followed_on_standard_input(monkeypatch:
 
         monkeypatch.setattr("sys.stdin", Stdin())
         code = main(("provoke", "--scenario", "undisturbed", "--tcp", str(port), "--driver-output", "-"))
+        os.write(writing, b"more\n")  # The thread that reads it ends then.
+        until(lambda: "i7000 driver" not in {it.name for it in threads()})
         os.close(writing)
 
     assert code == 0
@@ -274,7 +288,12 @@ def test_there_may_be_no_standard_input(monkeypatch: pytest.MonkeyPatch) -> None
 def test_an_output_that_ends_before_the_scenario_is_the_end_of_the_driver(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "fifo"
     os.mkfifo(path)
-    writer = Thread(target=lambda: path.write_bytes(b'{"address": 1, "status": "error"}'))
+
+    def write() -> None:
+        until(lambda: "i7000 driver" in {it.name for it in threads()})
+        path.write_bytes(b'{"address": 1, "status": "error"}')
+
+    writer = Thread(target=write)
     writer.start()
 
     told = run("provoke", "--scenario", "echo", "--tcp", "0", "--driver-output", str(path))

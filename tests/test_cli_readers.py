@@ -297,6 +297,12 @@ def test_a_recording_without_an_end_is_incomplete() -> None:
     assert last.text == "line 2"
 
 
+def test_a_recording_without_a_line_is_incomplete_too() -> None:
+    (only,) = recorded()
+
+    assert (only.missing, only.text) == (Missing.DAMAGE, "line 0")
+
+
 def test_a_line_that_is_no_record_is_reported_and_the_rest_is_read() -> None:
     reads = recorded(BEGIN, Carried(0.5, b"$0", sent=True), '{"record": "bytes"', Carried(0.6, b"$012\r"), End(0.6))
 

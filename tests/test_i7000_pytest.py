@@ -13,6 +13,8 @@ import serial
 
 import _i7000_pytest
 from i7000 import Model, Profile, TypeCode, dcon
+from i7000.conformance.settle import Settled
+from i7000.device import factory, power_on
 from i7000.host import Answered
 from i7000.link import Line, VirtualPort
 from i7000.simulator import Faults, RunningSimulator
@@ -117,3 +119,83 @@ def test_loading_the_plugin_imports_nothing_but_pytest() -> None:
     told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)  # noqa: S603
 
     assert told.stdout.strip() == "{'_i7000_pytest'}"
+
+
+# --- the checks of a module -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def check(pytester: pytest.Pytester) -> Callable[..., pytest.RunResult]:
+    """Run the checks of a module as pytest does."""
+
+    def run(*options: str) -> pytest.RunResult:
+        return pytester.runpytest_inprocess("-p", "no:cacheprovider", "-p", "no:cov", *options)
+
+    return run
+
+
+class Longer(VirtualPort):
+    """A module that answers one byte more when it is asked for its configuration."""
+
+    longer = False
+
+    def write(self, data: object) -> int:
+        self.longer = bytes(data) == b"$012\r"  # type: ignore[call-overload] # it is bytes
+        return super().write(data)
+
+    def read(self, size: int = 1) -> bytes:
+        found = super().read(size)
+        return found.replace(b"\r", b"0\r") if self.longer else found
+
+
+def test_the_checks_of_a_module_are_tests(check: Callable[..., pytest.RunResult]) -> None:
+    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "-k", "frame")
+
+    counts = result.parseoutcomes()
+    assert counts["passed"] > 5
+    assert counts["skipped"] == 4  # it has no checksum
+    result.stdout.re_match_lines([r"=+ i7000: I-7018 =+", r"\d+ of \d+ checks passed; they prove \d sections"])
+    assert result.ret == 0
+
+
+def test_a_check_that_a_module_does_not_pass_shows_the_bytes(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    port = Longer([power_on(factory(Model.I_7018), now=0.0)])
+    monkeypatch.setattr("i7000.link.bench.open_target", lambda *_: port)
+
+    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "--i7000-model", "I-7018", "-k", "stateful")
+
+    result.stdout.fnmatch_lines(["required *", "sent * 24 30 31 32 0d", "received *30 0d"])
+    assert result.ret == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--i7000-target", "sim:I-7018", "--i7000-address", "2"), "no module answers at address 02"),
+        (("--i7000-target", "sim:nonsense"), "nonsense"),
+        (("--i7000-target", "sim:I-7018", "--i7000-model", "I-1"), "give one of I-7017"),
+        (("--i7000-target", "sim:I-7018", "-n", "1"), "leave out --numprocesses"),
+    ],
+)
+def test_a_module_that_cannot_be_checked_is_an_error_of_usage(
+    options: tuple[str, ...], message: str, check: Callable[..., pytest.RunResult]
+) -> None:
+    result = check(*options)
+
+    assert message in result.stderr.str() + result.stdout.str()
+    assert result.ret != 0
+
+
+def test_a_module_that_is_left_changed_is_the_exit_code(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        "i7000.link.bench.Bench.close", lambda _: Settled(restored=("filter",), left=("filter",), silent=False)
+    )
+
+    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "-k", "link/alive")
+
+    result.stdout.fnmatch_lines(["the module was left changed: filter"])
+    assert result.ret == 6

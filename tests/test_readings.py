@@ -377,3 +377,20 @@ def test_a_reading_without_a_word_is_refused_with_the_reason(
 def test_a_unit_of_another_type_is_refused_with_the_reason() -> None:
     with pytest.raises(EncodeError, match=r"unit cannot be 'MILLIVOLT': V, the unit of type 08, manual 1.11"):
         encode_word(Reading(1.0, Unit.MILLIVOLT), TypeCode.V_10)
+
+
+@pytest.mark.parametrize(
+    ("code", "ends"),
+    [
+        (TypeCode.V_10, {-10.0: 0x8000, 10.0: 0x7FFF}),
+        (TypeCode.MA_4_20, {4.0: 0x0000, 20.0: 0xFFFF}),
+    ],
+)
+def test_the_ends_have_words_and_one_count_beyond_them_has_none(code: TypeCode, ends: dict[float, int]) -> None:
+    (low, first), (high, last) = ends.items()
+    count = (high - low) / 0xFFFF
+
+    assert (encode_word(Reading(low, code.unit), code), encode_word(Reading(high, code.unit), code)) == (first, last)
+    for value in (low - count, high + count):
+        with pytest.raises(EncodeError, match="value cannot be"):
+            encode_word(Reading(value, code.unit), code)

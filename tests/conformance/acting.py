@@ -12,7 +12,7 @@ from attrs import evolve
 
 from i7000 import BaudRate, CharacterFormat, DecodeError, LineSettings, Model, Noise, Protocol, dcon, modbus
 from i7000.conformance import Guard, GuardError, Hazard, allowing
-from i7000.device import Bus, Ear, Heard, Signals, State, Uart, advance, factory, power_on
+from i7000.device import Bus, Ear, Heard, Signals, State, Uart, advance, factory, power_on, step
 from i7000.device.measurement import sample
 from tests.conformance import near_misses
 
@@ -133,10 +133,11 @@ def acted_on(before: State, after: State, heard: tuple[Heard, ...]) -> set[Hazar
 def _carried_out(heard: Heard, before: State) -> set[Hazard]:
     if isinstance(heard.frame, Noise):
         return set()
+    _, answer = step(before, heard.frame, SIGNALS[0], NOW)  # that of `heard` is garbled by other line settings
     try:
         if heard.protocol is Protocol.DCON:
-            return _of_command(dcon.decode_command(heard.frame, heard.profile or before.profile), heard.answer)
-        return _of_request(modbus.decode_request(heard.frame, heard.profile or before.profile), heard)
+            return _of_command(dcon.decode_command(heard.frame, heard.profile or before.profile), answer)
+        return _of_request(modbus.decode_request(heard.frame, heard.profile or before.profile), answer)
     except DecodeError:
         return set()
 
@@ -155,8 +156,8 @@ def _of_name(name: str) -> set[Hazard]:
     return {hazard for names, hazard in kinds if name in names}
 
 
-def _of_request(request: Any, heard: Heard) -> set[Hazard]:
-    if request.address and (heard.answer is None or heard.answer[1] & 0x80):
+def _of_request(request: Any, answer: bytes | None) -> set[Hazard]:
+    if request.address and (answer is None or answer[1] & 0x80):
         return set()
     found = _of_name(type(request).__name__)
     if request.function in (0x05, 0x0F):

@@ -2,11 +2,12 @@
 
 import re
 from collections.abc import Callable, Generator, Iterable
+from itertools import cycle
 from typing import Any
 
 from attrs import define, evolve, field
 
-from i7000 import Model, Protocol, dcon
+from i7000 import Model, Protocol, dcon, spec
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.run import CheckResult, Options, Run, plan, selected
 from i7000.conformance.verdict import Verdict
@@ -17,6 +18,7 @@ from i7000.settings import LineSettings
 from i7000.simulator import Sources, default_sources
 
 ALL = frozenset(Hazard)
+STATEMENTS = spec.statements()
 Answer = Callable[[bytes, bytes | None], bytes | None]
 """What a firmware answers to a frame in place of the right answer."""
 Step = Callable[[State, bytes, Signals, float], tuple[State, bytes | None]]
@@ -31,15 +33,18 @@ class Bench:
     power: bool = True
     """Whether its power can be switched."""
     line: LineSettings = field(factory=LineSettings)
-    sources: Sources = field(init=False)
+    sources: Sources | None = None
+    connected: Sources = field(init=False)
+    stored: Callable[[Eeprom], Eeprom] = lambda eeprom: eeprom
+    """What is left of the settings without power."""
     now: float = 0.0
     sent: list[bytes] = field(factory=list)
     text: bytes = b""
 
     def __attrs_post_init__(self) -> None:
-        self.sources = default_sources(self.state.eeprom)
+        self.connected = self.sources or default_sources(self.state.eeprom)
 
-    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:  # noqa: ANN401 - what the procedure returns
+    def drive(self, procedure: Generator[Any, Any, Any]) -> Any:
         """Carry out a procedure, and return what it returns."""
         answer: Any = None
         while True:
@@ -57,7 +62,7 @@ class Bench:
             elif isinstance(act, PowerCycle):
                 answer = self.power
                 if self.power:
-                    self.state = power_on(self.state.eeprom, init_switch=act.init_switch, now=self.now)
+                    self.state = power_on(self.stored(self.state.eeprom), init_switch=act.init_switch, now=self.now)
 
     def _listen(self, act: SendBytes) -> BytesHeard:
         heard = b""
@@ -76,11 +81,11 @@ class Bench:
         return [frame for frame in frames if isinstance(frame, bytes)]
 
     def _answer(self, frame: bytes) -> bytes | None:
-        self.state, wire = self.firmware(self.state, frame, self.sources.at(self.now), self.now)
+        self.state, wire = self.firmware(self.state, frame, self.connected.at(self.now), self.now)
         return wire
 
 
-def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:  # noqa: ANN401 - fields of `Eeprom`
+def memory(model: Model, firmware: str | None = None, **changes: Any) -> Eeprom:
     """Return the memory of a module that speaks DCON, with changes."""
     made = factory(model, None if firmware is None else Firmware(firmware))
     return evolve(made, **{"protocol": Protocol.DCON, **changes})
@@ -92,13 +97,14 @@ def checked(
     firmware: Step = step,
     *,
     allowed: frozenset[Hazard] = ALL,
-    power: bool = True,
     bench: Bench | None = None,
 ) -> dict[str, CheckResult]:
     """Return what became of the selected checks of a module, by their ids."""
     state = power_on(eeprom, now=0.0)
-    bench = bench or Bench(state, firmware, power, state.ram.line_settings)
-    planned = plan(selected(select), state.profile, eeprom.protocol, allowed)
+    bench = bench or Bench(state, firmware, line=state.ram.line_settings)
+    wanted = selected(STATEMENTS, select)
+    statements = [it for it in STATEMENTS.values() if it.id in wanted]
+    planned = plan(statements, state.profile, eeprom.protocol, allowed)
     found = Run(planned, eeprom, Options(allowed=allowed), line=state.ram.line_settings, checksum=state.ram.checksum)
     bench.drive(found.procedure())
     return {result.id: result for result in found.results}
@@ -164,6 +170,24 @@ def acknowledging(pattern: bytes) -> Step:
     return altered
 
 
-def saying(pattern: bytes, by: bytes, *, to: bytes = b"") -> Step:
-    """Return a firmware whose answers have something else in place of a pattern, to frames that `to` begins."""
+def saying(pattern: bytes, by: bytes, *, to: bytes = rb"(?!\$..M)") -> Step:
+    """Return a firmware whose answers to frames that `to` begins have something else in place of a pattern.
+
+    Without `to`, these are all answers but that with the name, without which nothing else is tested.
+    """
     return answering(lambda frame, wire: re.sub(pattern, by, wire) if wire and re.match(to, frame) else wire)
+
+
+def silent(pattern: bytes) -> Step:
+    """Return a firmware that does not answer frames that a pattern begins."""
+    return answering(lambda frame, wire: None if re.match(pattern, frame) else wire)
+
+
+def by_turns(begins: bytes, *steps: Step) -> Step:
+    """Return a firmware that is another one each time that it hears a frame that a pattern begins."""
+    turns = cycle(steps)
+
+    def turning(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        return (next(turns) if re.match(begins, frame) else step)(state, frame, signals, now)
+
+    return turning

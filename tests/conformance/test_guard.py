@@ -34,7 +34,8 @@ CLASSES = {
     "memory": b"$014\r $014F\r",
     "broadcast": b"#** #**\r ~**\r ~**62\r $**2\r",
     "write": (
-        b"$015\r $0153A\r $0153A14\r $017C0R08\r $017\r $019+0010\r $0191\r $01A1\r $01A107\r ~01C1\r ~01C7X\r ~01EO1\r"
+        b"$015\r $0153A\r $0153A14\r $017C0R08\r $017\r $019+0010\r $0191\r $01A1\r $01A107\r"
+        b" $01AC6F\r ~01C1\r ~01C7X\r ~01EO1\r"
         b" ~01EO1A\r @01S1\r @01S14\r ~01ONAME\r ~01O ~011\r"
     ),
     "comm": (
@@ -348,8 +349,13 @@ def test_the_reads_of_a_module_can_follow_each_other(address: int) -> None:
 
 @pytest.mark.no_cover
 def test_the_longest_write_is_classified_in_bounded_work(monkeypatch: pytest.MonkeyPatch) -> None:
-    work = []
-    monkeypatch.setattr("i7000.conformance.guard_rtu.crc_of", lambda frame: work.append(len(frame)) or 1)
+    work: list[int] = []
+
+    def crc_of(frame: bytes) -> int:
+        work.append(len(frame))
+        return 1
+
+    monkeypatch.setattr("i7000.conformance.guard_rtu.crc_of", crc_of)
     for unit in (b"\x05", b"\x10", b"\x00\x46", b"$01", b"\x01\x10\x00\x00\x00\x01\xff"):
         hazards_of((unit * LONGEST_WRITE)[:LONGEST_WRITE])
 

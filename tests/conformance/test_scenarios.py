@@ -44,3 +44,11 @@ def test_what_is_not_applicable_says_why(name: str, bus: Bus, reason: str | None
     (scenario,) = (it for it in SCENARIOS if it.name == name)
 
     assert refusal(scenario, bus) == reason
+
+
+def test_a_pause_in_an_answer_may_end_it_by_modbus() -> None:
+    (scenario,) = (it for it in SCENARIOS if it.name == "split")
+
+    beliefs = [[step.belief_by(protocol) for step in scenario.steps] for protocol in Protocol]
+
+    assert sorted(beliefs) == [[Belief.MUST, Belief.MAY, Belief.MUST], [Belief.MUST] * 3]

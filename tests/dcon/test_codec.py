@@ -1,11 +1,13 @@
 """What `encode` and the decoders refuse, and how they say it; helpers for drivers."""
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 from attrs import evolve
 
 from i7000 import (
+    ArgumentError,
     BaudRate,
     CharacterFormat,
     CjcUpdate,
@@ -344,3 +346,146 @@ def test_what_a_module_does_not_take_can_be_forced(message: Any, profile: Profil
         dcon.encode(message, profile)
 
     assert message.layout.encode(message, profile) + b"\r" == dcon.encode(message, profile, force=True)
+
+
+@pytest.mark.parametrize(
+    ("call", "facts"),
+    [
+        (
+            lambda: dcon.decode_command(b"$01\r", Profile(Model.M_7018R)),
+            (Fault.LENGTH, "", 3, "a command of chapter 2", "2"),
+        ),
+        (
+            lambda: dcon.decode_command(b"#**\r", Profile(Model.M_7018R)),
+            (Fault.UNSUPPORTED, "", 1, "synchronized sampling exists on 7019 series only", "2.2"),
+        ),
+        (
+            lambda: dcon.decode_command(b"$012x\r", Profile(Model.M_7018R)),
+            (Fault.LENGTH, "", 4, "4 characters: $AA2", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_command(b"$01z\r", Profile(Model.M_7018R)),
+            (Fault.COMMAND, "", 3, "a command of chapter 2", "2"),
+        ),
+        (
+            lambda: dcon.decode_command(b"~01C2\r", Profile(Model.M_7018R)),
+            (Fault.VALUE, "enabled", 4, "bool: 0 (False) 1 (True)", "2.30"),
+        ),
+        (
+            lambda: dcon.decode_command(b"$017X0R03\r", Profile(Model.M_7018R)),
+            (Fault.CHARACTER, "", 4, "$AA7CiRrr", "2.15"),
+        ),
+        (
+            lambda: dcon.decode_command(b"#*\r", Profile(Model.M_7018R)),
+            (Fault.LENGTH, "", 2, "3 characters: #AA", "2.3"),
+        ),
+        (
+            lambda: dcon.decode_command(b"$0a2\r", Profile(Model.M_7018R)),
+            (Fault.CHARACTER, "address", 2, "0-9 A-F", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_command(b"$01900100\r", Profile(Model.M_7018R)),
+            (Fault.NUMBER, "offset", 4, "+ or -", "2.18"),
+        ),
+        (
+            lambda: dcon.decode_command(b"~01Oab!\r", Profile(Model.M_7018R)),
+            (Fault.CHARACTER, "name", 6, "1 to 6 characters, printable ASCII without % # $ ~ @ ! > ?", "2.33"),
+        ),
+        (
+            lambda: dcon.decode_command(b"~0aOABCDEFG\r", Profile(Model.M_7018R)),
+            (Fault.LENGTH, "", 10, "5 to 10 characters: ~AAO(Name)", "2.33"),
+        ),
+        (
+            lambda: dcon.decode_command(b"~*1\r", Profile(Model.M_7018R)),
+            (Fault.CHARACTER, "", 2, "~**", "2.35"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!02050600\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.ADDRESS, "address", 1, "01", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_response(b"?02\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.ADDRESS, "address", 1, "01", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!01C1R05\r", dcon.ReadChannelTypeCode(1, 0), M_7019R),
+            (Fault.VALUE, "channel", 4, "the requested channel", "2.16"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!0105060\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.LENGTH, "", 8, "9 characters: !AATTCCFF", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!01050g00\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.CHARACTER, "line_settings", 6, "0-9 A-F", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_response(b"$01050600\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.LEADING, "", 0, "! ?", "2"),
+        ),
+        (
+            lambda: dcon.decode_response(b"?0\r", dcon.ReadConfiguration(1), M_7019R),
+            (Fault.LENGTH, "", 2, "3 characters: ?AA", "2.10"),
+        ),
+        (
+            lambda: dcon.decode_response(b">+1.2\r", dcon.ReadAnalogInputs(1), M_7019R),
+            (Fault.LENGTH, "", 5, "57 characters: >(Data)", "2.3"),
+        ),
+        (
+            lambda: dcon.decode_response(b">0031.2\r", dcon.ReadCjcTemperature(1), M_7019R),
+            (Fault.LENGTH, "", 7, "8 characters: >(Data)", "2.11"),
+        ),
+        (
+            lambda: dcon.decode_response(b">+0a31.2\r", dcon.ReadCjcTemperature(1), M_7019R),
+            (Fault.NUMBER, "temperature", 1, "-9999.9..+9999.9, in tenths", "2.11"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!01zz\r", dcon.ReadFirmwareVersion(1), M_7019R),
+            (Fault.LENGTH, "version", 5, "a letter, a digit, a point, one or two digits", "2.23"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!01ABCDEFGH\r", dcon.ReadModuleName(1), M_7019R),
+            (Fault.LENGTH, "", 9, "4 to 9 characters: !AA(Name)", "2.24"),
+        ),
+        (
+            lambda: dcon.decode_response(b"!0100ff\r", dcon.ReadChannelMask(1), M_7019R),
+            (Fault.LENGTH, "", 5, "5 characters: !AAVV", "2.14"),
+        ),
+    ],
+)
+def test_an_error_has_every_fact_of_the_fault(
+    call: Callable[[], object], facts: tuple[Fault, str, int, str, str]
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        call()
+
+    error = caught.value
+    assert facts == (error.fault, error.field, error.offset, error.allowed, error.section)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: dcon.encode(1, I_7017), "message must be Message"),  # type: ignore[arg-type]
+        (lambda: dcon.encode(dcon.HostOk(), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: dcon.encode(dcon.HostOk(), I_7017, force=1), "force must be bool"),  # type: ignore[arg-type]
+        (lambda: dcon.decode_command(1, I_7017), "frame must be bytes, bytearray or memoryview"),  # type: ignore[arg-type]
+        (lambda: dcon.decode_command(b"", 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (
+            lambda: dcon.decode_response(1, dcon.ReadConfiguration(1), I_7017),  # type: ignore[arg-type]
+            "frame must be bytes, bytearray or memoryview",
+        ),
+        (lambda: dcon.decode_response(b"", 1, I_7017), "command must be Command"),  # type: ignore[arg-type]
+        (lambda: dcon.decode_response(b"", dcon.ReadConfiguration(1), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: dcon.is_answered(1), "command must be Command or Broadcast"),  # type: ignore[arg-type]
+        (lambda: dcon.longest_response(1, I_7017), "command must be Command or Broadcast"),  # type: ignore[arg-type]
+        (lambda: dcon.longest_response(dcon.HostOk(), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: dcon.pause_after(1, I_7017), "command must be Command or Broadcast"),  # type: ignore[arg-type]
+        (lambda: dcon.pause_after(dcon.HostOk(), 1), "profile must be Profile"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_argument_of_the_wrong_type_is_named(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(ArgumentError) as caught:
+        call()
+
+    assert str(caught.value) == f"{message}, not 1 (int)"

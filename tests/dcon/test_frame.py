@@ -56,6 +56,10 @@ def test_less_than_a_frame_is_kept_whatever_comes() -> None:
             b"!\x010\x01\r", False, 1, "",
             r"character at byte 1 of !\x010\x01\r; allowed: characters 20h..7Eh (manual 2)",
         ),
+        (
+            b"\r01\r", False, 0, "",
+            r"terminator at byte 0 of \r01\r; allowed: one carriage return, at the end (manual 2)",
+        ),
         (b"x01\r", False, 0, "", r"leading at byte 0 of x01\r; allowed: % # $ ~ @ ! > ? (manual 2)"),
         (
             b"!0\r", True, 2, "",

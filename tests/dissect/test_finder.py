@@ -401,3 +401,11 @@ def test_a_counter_before_a_damaged_frame_is_no_frame() -> None:
 @pytest.mark.parametrize("text", ["x86 and x64", "x10x", "0x01x04", "max12x34"])
 def test_words_with_an_x_are_no_bytes(text: str) -> None:
     assert find(text) == ()
+
+
+@pytest.mark.parametrize("name", ["0\0\0\0", "\x01", "\x7f", "7018\u00e9"])
+def test_no_good_frame_has_characters_that_no_name_has(name: str) -> None:
+    good = [found.wire for found in find(f"!01{name}\r") if found.kind is Kind.DCON]
+
+    assert not is_shaped(f"!01{name}")
+    assert [wire for wire in good if not wire[:-1].decode("ascii").isprintable()] == []

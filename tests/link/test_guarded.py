@@ -12,6 +12,7 @@ from i7000.conformance import DEFAULT_ALLOWED, GuardError, Hazard, allowing
 from i7000.device import factory, power_on
 from i7000.host import Answered
 from i7000.link import BudgetError, GuardedPort, Line, LinkError, VirtualPort
+from i7000.link.port import power_cycle
 from i7000.link.process import ProcessPort
 
 PROFILE = Profile(Model.M_7019R)

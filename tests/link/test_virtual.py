@@ -15,6 +15,7 @@ from i7000.errors import InvalidValueError, StateError
 from i7000.link import VirtualPort
 from i7000.link.virtual import BUFFER
 from i7000.simulator.faults import Faults, Way
+from i7000.simulator.observed import Observed
 from i7000.simulator.sources import Fixed, Ramp, Sources
 from tests.simulator.running import module
 
@@ -38,6 +39,19 @@ def answer(port: VirtualPort, request: bytes = READ, seconds: float = 1.0) -> by
     port.write(request)
     port.timeout = seconds
     return port.read(1000)
+
+
+def test_each_exchange_can_be_observed() -> None:
+    port = dcon_port(faults=Faults(late=1.0, late_by=0.3))
+    seen: list[Observed] = []
+    port.observe = seen.append
+
+    answer(port, b"#0F0\r#010\r")
+
+    (observed,) = seen
+    assert (observed.heard, observed.answer, observed.faults) == (READ, SAID, ("late by 0.3 s",))
+    (piece,) = observed.pieces
+    assert (piece.wire, round(piece.after, 6)) == (SAID, 0.3)
 
 
 # --- time -------------------------------------------------------------------------------------------------------------

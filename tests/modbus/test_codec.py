@@ -1,10 +1,12 @@
 """What `encode` and the decoders of Modbus refuse, and how they say it."""
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from i7000 import (
+    ArgumentError,
     BaudRate,
     CharacterFormat,
     CjcUpdate,
@@ -445,3 +447,130 @@ def test_miscellaneous_settings_are_filter_and_fast_mode() -> None:
 
     assert (told.filter, told.fast_mode) == (Filter.REJECT_50_HZ, True)
     assert Filter.REJECT_60_HZ is modbus.MiscellaneousSettings(0x01, 0x20).filter
+
+
+@pytest.mark.parametrize(
+    ("call", "facts"),
+    [
+        (
+            lambda: modbus.decode_request(frame("f80400000001"), M_7017),
+            (Fault.ADDRESS, "address", 0, "1..247, and 0 for functions 05, 06, 0F, 10", "3"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("0146"), M_7017),
+            (Fault.LENGTH, "sub_function", 2, "one more byte", "3.3"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("014699"), M_7017),
+            (Fault.SUB_FUNCTION, "sub_function", 2, "00 04 05 06 07 08 20 25 26 29 2A 2B 2C 2D 2E 2F 30", "3.3"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("0199"), M_7017),
+            (Fault.FUNCTION, "function", 1, "01 02 03 04 05 06 0F 10 46", "3"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("000400000001"), M_7017),
+            (Fault.ADDRESS, "address", 0, "1..247, and 0 for functions 05, 06, 0F, 10", "3"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("0104000000"), M_7017),
+            (Fault.LENGTH, "", 5, "address and PDU of 6 bytes", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("010400000000"), M_7017),
+            (Fault.RANGE, "count", 4, "1..125", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("0104ffff0002"), M_7017),
+            (Fault.RANGE, "count", 4, "none beyond address 65535", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("010500001234"), M_7017),
+            (Fault.VALUE, "value", 4, "True False", "3.4"),
+        ),
+        (
+            lambda: modbus.decode_request(frame("0146040001"), M_7017),
+            (Fault.LENGTH, "", 5, "address and PDU of 7 bytes", "3.3.2"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("0104"), modbus.ReadInputRegisters(1, 0, 2), M_7017),
+            (Fault.LENGTH, "", 2, "at least 5 bytes", "3"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("0204041234"), modbus.ReadInputRegisters(1, 0, 2), M_7017),
+            (Fault.ADDRESS, "address", 0, "01", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("0103041234"), modbus.ReadInputRegisters(1, 0, 2), M_7017),
+            (Fault.FUNCTION, "function", 1, "04 84", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("018301"), modbus.ReadInputRegisters(1, 0, 2), M_7017),
+            (Fault.FUNCTION, "function", 1, "04 84", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("01040200ff"), modbus.ReadInputRegisters(1, 0, 2), M_7017),
+            (Fault.COUNT, "bytes", 2, "4, as requested", "3.2"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("0146040001"), modbus.ReadModuleName(1), M_7017),
+            (Fault.SUB_FUNCTION, "sub_function", 2, "00", "3.3"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("01060005000700"), modbus.WriteSingleRegister(1, 5, 6), M_7017),
+            (Fault.LENGTH, "", 6, "6 bytes of address and PDU", "3.4"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("010600050007"), modbus.WriteSingleRegister(1, 5, 6), M_7017),
+            (Fault.ECHO, "", 5, "01 06 00 05 00 06", "3.4"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("01010200ff"), modbus.ReadCoils(1, 0, 3), M_7017),
+            (Fault.COUNT, "bytes", 2, "1, as requested", "3.4"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("01462500ff"), modbus.ReadChannelMask(1), M_7017),
+            (Fault.LENGTH, "", 3, "address and PDU of 3 bytes and more", "3.3.8"),
+        ),
+        (
+            lambda: modbus.decode_response(frame("000600050006"), modbus.WriteSingleRegister(0, 5, 6), M_7017),
+            (Fault.ADDRESS, "address", 0, "no response to a broadcast", "3.4"),
+        ),
+    ],
+)
+def test_an_error_has_every_fact_of_the_fault(
+    call: Callable[[], object], facts: tuple[Fault, str, int, str, str]
+) -> None:
+    with pytest.raises(DecodeError) as caught:
+        call()
+
+    error = caught.value
+    assert facts == (error.fault, error.field, error.offset, error.allowed, error.section)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: modbus.encode(1), "message must be Message"),  # type: ignore[arg-type]
+        (lambda: modbus.encode(modbus.ReadModuleName(1), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: modbus.encode(modbus.ReadModuleName(1), force=1), "force must be bool"),  # type: ignore[arg-type]
+        (lambda: modbus.is_answered(1), "request must be Request"),  # type: ignore[arg-type]
+        (lambda: modbus.decode_request(1, M_7017), "frame must be bytes, bytearray or memoryview"),  # type: ignore[arg-type]
+        (lambda: modbus.decode_request(b"", 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (
+            lambda: modbus.decode_response(1, modbus.ReadModuleName(1), M_7017),  # type: ignore[arg-type]
+            "frame must be bytes, bytearray or memoryview",
+        ),
+        (lambda: modbus.decode_response(b"", 1, M_7017), "request must be Request"),  # type: ignore[arg-type]
+        (lambda: modbus.decode_response(b"", modbus.ReadModuleName(1), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: modbus.longest_response(1, M_7017), "request must be Request"),  # type: ignore[arg-type]
+        (lambda: modbus.longest_response(modbus.ReadModuleName(1), 1), "profile must be Profile"),  # type: ignore[arg-type]
+        (lambda: modbus.pause_after(1, M_7017), "request must be Request"),  # type: ignore[arg-type]
+        (lambda: modbus.pause_after(modbus.ReadModuleName(1), 1), "profile must be Profile"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_argument_of_the_wrong_type_is_named(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(ArgumentError) as caught:
+        call()
+
+    assert str(caught.value) == f"{message}, not 1 (int)"

@@ -34,6 +34,9 @@ PROSE = frozenset({"comment", "description", "meaning", "what", "reading", "evid
 FREE = frozenset({"id", "profile", "at"})
 """Not in tables: of a vector or story."""
 
+UNORDERED = frozenset({"used_by"})
+"""Lists whose order says nothing."""
+
 SETS = frozenset({"models", "types"})
 """Objects whose keys are data: a key can be dropped."""
 
@@ -110,7 +113,7 @@ def _changes(
         case list():
             yield from ({(*place, index): DROPPED} for index in range(len(value)))
             for index, (left, right) in enumerate(pairwise(value)):
-                if left != right:
+                if left != right and place[-1] not in UNORDERED:
                     yield {(*place, index): right, (*place, index + 1): left}
             for index, item in enumerate(value):
                 yield from _changes(item, (*place, index), columns, skipped)

@@ -48,6 +48,7 @@ class Copied:
 @pytest.fixture(autouse=True)
 def copied(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(program, "Scratch", Copied)
+    monkeypatch.setattr(program, "files_of_git", list)
 
 
 @pytest.fixture

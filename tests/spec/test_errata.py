@@ -45,6 +45,20 @@ def test_errata_are_named_once_and_stand_in_order() -> None:
     assert numbers == sorted(set(numbers))
 
 
+def place(section: str) -> list[tuple[bool, int, str]]:
+    """Where a section stands in the manual: chapters by number, then appendices by letter."""
+    return [(not part.isdigit(), int(part) if part.isdigit() else 0, part) for part in section.split(".")]
+
+
+def test_the_sections_of_an_erratum_are_named_once_and_stand_in_order() -> None:
+    cells = [
+        Cell("errata.json", erratum, "sections", row["sections"], sorted(set(row["sections"]), key=place))
+        for erratum, row in ERRATA.items()
+    ]
+
+    assert wrong(cells) == []
+
+
 @pytest.mark.parametrize("path", lint.data_files(), ids=lint.name)
 def test_every_erratum_that_is_cited_exists_and_is_cited_once_in_order(path: Path) -> None:
     cells = []

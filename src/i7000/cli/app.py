@@ -29,6 +29,7 @@ from i7000.cli.scan import scan
 from i7000.cli.send import send
 from i7000.cli.set_setting import set_setting
 from i7000.cli.simulate import simulate
+from i7000.cli.statement import statement
 from i7000.cli.text import Printer
 from i7000.cli.vectors import DELIMITER, vectors
 from i7000.cli.words import UsageError
@@ -47,7 +48,7 @@ app = App(
 
 for _command in (
     decode, encode, commands, registers, errata, listen, read, scan, send, backup, diff, restore, simulate, proxy,
-    check, report, replay, provoke, coverage, vectors, fuzz,
+    check, report, replay, provoke, coverage, vectors, fuzz, statement,
 ):  # fmt: skip
     app.command(_command, version_flags=())
 app.command(set_setting, name="set", version_flags=())

@@ -45,6 +45,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     report: Annotated[
         Texts, Parameter(help="Write a report: json=FILE, html=FILE, junit=FILE, pytest=FILE or pcap=FILE; repeat it.")
     ] = (),
+    statement: Annotated[
+        str | None, Parameter(help="A file of i7000 statement: check the module against it, both ways.")
+    ] = None,
     snapshot: Annotated[
         str | None,
         Parameter(
@@ -111,6 +114,7 @@ def check(  # noqa: PLR0913 - each of them is an option
         baseline=baseline,
         baseline_update=baseline_update,
         reports=report,
+        statement=statement,
         snapshot=snapshot,
         seed=seed,
         max_time=max_time,

@@ -14,6 +14,7 @@ from i7000.cli.durations import seconds
 from i7000.cli.module import named
 from i7000.cli.report_files import KINDS
 from i7000.cli.words import UsageError
+from i7000.conformance.claims import Claims
 from i7000.conformance.hazard import Hazard, allowing
 from i7000.conformance.run import CheckResult, Options, selected
 from i7000.conformance.verdict import Verdict
@@ -44,6 +45,7 @@ class Wishes:
     baseline: str | None
     baseline_update: bool
     reports: tuple[str, ...]
+    statement: str | None
     snapshot: str | None
     seed: int
     max_time: str | None
@@ -91,8 +93,26 @@ def settings_of(wishes: Wishes) -> Settings:
         timeout_scale=wishes.timeout_scale,
         writes=wishes.eeprom_writes,
         seconds=limit,
+        claims=_claims(wishes),
     )
     return Settings(ids, options, _reports(wishes.reports), _baseline(wishes))
+
+
+def _claims(wishes: Wishes) -> Claims | None:
+    """Return the statement of the module.
+
+    Errors: `UsageError` for a file that is not a statement, and for a selected group without one; `OSError`.
+    """
+    if wishes.statement is None:
+        if any(text.startswith("statement") for text in wishes.select):
+            raise UsageError("statement: give --statement FILE, made by i7000 statement")
+        return None
+    with Path(wishes.statement).open("rb") as file:
+        data = file.read(_LARGEST_BASELINE + 1)
+    try:
+        return Claims.from_json(data[:_LARGEST_BASELINE])
+    except InvalidValueError as error:
+        raise UsageError(f"{wishes.statement}: {error.reason}") from None
 
 
 def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:

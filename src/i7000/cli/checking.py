@@ -92,7 +92,7 @@ class _Checking:
         eeprom = eeprom_of(before)
         profile = power_on(eeprom, now=0.0).profile
         chosen = [it for it in spec.statements().values() if it.id in self._settings.ids]
-        planned = plan(chosen, profile, there.protocol, options.allowed)
+        planned = plan(chosen, profile, there.protocol, options.allowed, options.claims)
         self._keep(before, there)
         one = Run(planned, eeprom, options, line=open_line.line.line, checksum=there.profile.checksum)
         with ExitStack() as stack:

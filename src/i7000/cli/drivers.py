@@ -136,18 +136,19 @@ async def followed(output: str, clock: Callable[[], float]) -> AsyncIterator[Dri
 
     def follow() -> None:
         with suppress(RuntimeError, OSError), os.fdopen(descriptor, "rb", 0):  # The loop or the terminal is gone.
+            began = False
             while True:
                 data = os.read(descriptor, _AT_ONCE)
                 if data:
+                    began = True
                     loop.call_soon_threadsafe(driver.feed, data)
-                elif grows:
-                    if stopped.wait(_PAUSE):
-                        return
-                    if os.fstat(descriptor).st_size < os.lseek(descriptor, 0, os.SEEK_CUR):
-                        os.lseek(descriptor, 0, os.SEEK_SET)  # It was emptied, as a shell does that writes to it.
-                else:
+                elif began and not grows:
                     loop.call_soon_threadsafe(driver.end, "the driver's output ended")
                     return
+                elif stopped.wait(_PAUSE):  # A named pipe may have no writer yet.
+                    return
+                elif grows and os.fstat(descriptor).st_size < os.lseek(descriptor, 0, os.SEEK_CUR):
+                    os.lseek(descriptor, 0, os.SEEK_SET)  # It was emptied, as a shell does that writes to it.
 
     Thread(target=follow, name="i7000 driver", daemon=True).start()
     try:

@@ -169,7 +169,9 @@ def _explained(it: "Scenario") -> list[Line]:
     }
     for number, step in enumerate(it.steps, 1):
         faults = step.faults or "no faults"
-        facts[f"step {number}"] = f"{step.answers} answers, {faults}, inputs {step.inputs}: {_BELIEFS[step.belief]}"
+        by_rtu = "" if step.by_rtu is None else f"; by Modbus RTU {_BELIEFS[step.by_rtu]}"
+        words = f"{step.answers} answers, {faults}, inputs {step.inputs}: {_BELIEFS[step.belief]}{by_rtu}"
+        facts[f"step {number}"] = words
     return [
         [(it.name, "bold"), (f": {it.title}", "")],
         *[[(f"  {name:<15} {words}", "")] for name, words in facts.items() if words],

@@ -34,6 +34,8 @@ _LOOK = 0.05
 """The seconds between two looks at what the driver has said."""
 _SETTLE = 0.5
 """The seconds after the last step in which a driver can still report a wrong value."""
+_ATTEMPTS = 3
+"""How often a scenario is played whose failure is doubtful: this machine was too busy."""
 _FAILED, _NOTHING = 1, 5
 """Exit codes: a failure; nothing ran, or not all was conclusive."""
 
@@ -122,10 +124,15 @@ def _result(provoking: Provoking, scenario: Scenario, until: float, printer: Pri
     reason = refusal(scenario, _bus(_eeproms(provoking.models, scenario, changed=False)))
     if reason is not None:
         return Result(scenario, Judgement(Verdict.SKIP, reason=reason))
-    left = min(provoking.each, until - monotonic())
-    if left <= 0:
-        return Result(scenario, Judgement(Verdict.INCONCLUSIVE, reason="no time was left: give a longer --max-time"))
-    return asyncio.run(_provoke(provoking, scenario, left, printer))
+    result = Result(scenario, Judgement(Verdict.INCONCLUSIVE, reason="no time was left: give a longer --max-time"))
+    for _ in range(_ATTEMPTS if provoking.command else 1):
+        left = min(provoking.each, until - monotonic())
+        if left <= 0:
+            break
+        result = asyncio.run(_provoke(provoking, scenario, left, printer))
+        if result.judgement.verdict is not Verdict.FAIL or not result.judgement.reason:
+            break
+    return result
 
 
 def _bus(eeproms: Sequence[Eeprom]) -> Bus:
@@ -200,11 +207,20 @@ async def _watch(
     """Wait until a scenario is over, and return what happened."""
     began = clock()
     over: float | None = None
+    held_up, looked = 0.0, began
     while True:
         now = clock()
+        held_up, looked = max(held_up, now - looked - _LOOK), now
         lines = tuple(driver.lines)
         session = player.session(
-            Session(lines=lines, began=began, now=now, ended=driver.ended, patience=provoking.patience)
+            Session(
+                lines=lines,
+                began=began,
+                now=now,
+                ended=driver.ended,
+                patience=provoking.patience,
+                held_up=held_up,
+            )
         )
         last = lines[-1].at if lines else began
         if player.finished:

@@ -199,6 +199,7 @@ def _recorded(lines: Iterable[tuple[int, str]]) -> Iterator[Packet | Damage]:
     """Yield what a recording has of the line, with dates."""
     began: float | None = None
     ended = False
+    number = 0
     for number, text in lines:
         ended = False
         match read(text):

@@ -12,7 +12,7 @@ from attrs import evolve, fields_dict
 
 from i7000 import dcon, modbus
 from i7000.device import Eeprom, Log, Signals, State, factory, power_on, step
-from i7000.errors import DecodeError, shown
+from i7000.errors import DecodeError, Fault, shown
 from i7000.frozen import frozen
 from i7000.host.procedures import NOT_SETTINGS, Snapshot
 from i7000.host.procedures.settings import known_settings
@@ -21,7 +21,7 @@ from i7000.modbus import Area, Kind, Register
 from i7000.models import Firmware, Model, series
 from i7000.profile import Profile
 from i7000.readings import Reading, Status
-from i7000.settings import Protocol
+from i7000.settings import DataFormat, Protocol
 from i7000.type_codes import MIXED
 
 __all__ = ["Answer", "Twin", "difference", "eeprom_of", "rows_of"]
@@ -172,15 +172,48 @@ _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon
 
 def _dcon_difference(answer: Answer, response: Response, expected: Response) -> str | None:
     if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
-        return _readings_difference(
-            answer, lambda: dcon.readings(response, answer.profile), range(len(response.values))
-        )
+        channels = range(len(response.values))
+        return _readings_difference(answer, lambda: readings_of(response, answer.profile), channels)
     if isinstance(response, dcon.AnalogInput):
         channel = cast(dcon.ReadAnalogInput, answer.query).channel
-        return _readings_difference(answer, lambda: (dcon.reading(response, channel, answer.profile),), (channel,))
+        return _readings_difference(answer, lambda: readings_of(response, answer.profile, channel), (channel,))
     if isinstance(response, _UNKNOWN):
         return None
+    if isinstance(response, dcon.Configuration) and isinstance(expected, dcon.Configuration):
+        return _configuration_difference(answer, response, expected)
     return _fields_difference(response, expected)
+
+
+def _configuration_difference(answer: Answer, response: dcon.Configuration, expected: dcon.Configuration) -> str | None:
+    """Compare configurations; the type code of channels that are set one by one is open (E81)."""
+    if not answer.profile.model.type_by_configuration or expected.type_code == MIXED:
+        response = evolve(response, type_code=expected.type_code)
+    return None if response == expected else _fields_difference(response, expected)
+
+
+def readings_of(
+    response: dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData | dcon.AnalogInput,
+    profile: Profile,
+    channel: int = 0,
+) -> tuple[Reading, ...]:
+    """Return the readings of a report, or of one channel; how far they may be beyond their range is open (E121).
+
+    Errors: `DecodeError` for a field of another form, and for a number with other decimals than its type has.
+    """
+    if isinstance(response, dcon.AnalogInput):
+        fields: tuple[str, ...] = (response.value,)
+        found: tuple[Reading, ...] = (dcon.reading(response, channel, profile, lenient=True),)
+    else:
+        fields = response.values
+        found = dcon.readings(response, profile, lenient=True)
+    if profile.data_format is DataFormat.ENGINEERING and not isinstance(response, dcon.AnalogInputsHex):
+        for at, (text, reading) in enumerate(zip(fields, found, strict=True), channel):
+            decimals = profile.type_codes[at].decimals
+            if reading.value is not None and text[-1 - decimals] != ".":
+                allowed = f"{decimals} decimals, type {profile.type_codes[at]:02X}"
+                field = f"the value of channel {at}"
+                raise DecodeError(Fault.NUMBER, text.encode(), field=field, allowed=allowed, section="1.11")
+    return found
 
 
 def _readings_difference(answer: Answer, read: Callable[[], Sequence[Reading]], channels: Iterable[int]) -> str | None:

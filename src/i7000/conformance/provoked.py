@@ -8,9 +8,10 @@ neither of them.
 """
 
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
 from math import inf
+from operator import attrgetter
 
 from attrs import define, evolve, field, frozen
 
@@ -18,9 +19,16 @@ from i7000.conformance.believed import ERROR, MISSING, OK, Believed, Unreadable
 from i7000.conformance.scenarios import Belief
 
 __all__ = [
-    "Ended", "Finding", "Given", "Judgement", "Kind", "Line", "Session", "Told", "Verdict", "is_decided", "judge",
+    "Ended", "Finding", "Given", "Judgement", "Kind", "Line", "Session", "Told", "Verdict", "is_decided",
+    "judge",
 ]  # fmt: skip
 
+_MOST_HELD_UP = 0.15
+"""The seconds for which a line may be held up without effect on the verdict."""
+_RECENT = 100
+"""The answers before a line that it can rest on."""
+_MOST_WRONG = 200
+"""The wrong values that are explained."""
 _NO_TIME = 0.005
 """The seconds before a request in which an answer may arrive that the driver has read."""
 
@@ -127,13 +135,15 @@ class Session:
     lines: tuple[Line, ...] = ()
     began: float = 0.0
     now: float = 0.0
-    steps: tuple[Belief, ...] = ()
-    """What a driver makes of the answers of each step."""
+    steps: int = 1
+    """How many steps the scenario has."""
     finished: bool = False
     """Whether all steps were carried out."""
     ended: Ended | None = None
     patience: float = 10.0
     """The longest time without a line of the driver."""
+    held_up: float = 0.0
+    """The longest time for which the machine of the line did not get to it."""
 
 
 @frozen
@@ -156,7 +166,7 @@ class Judgement:
     verdict: Verdict
     findings: tuple[Finding, ...] = ()
     reason: str = ""
-    """Why it is neither passed nor failed."""
+    """Why it is neither passed nor failed, or what makes a failure doubtful."""
     values: int = 0
     """The number of right values that it reported."""
 
@@ -172,26 +182,27 @@ def judge(session: Session) -> Judgement:
     findings = [*wrong, *_deadlocks(session)]
     if session.ended is not None and not session.finished:
         findings.append(Finding(Kind.ENDED, session.ended.at, session.ended.words))
-    if session.finished:
+    if session.finished and len(wrong) < _MOST_WRONG:
         findings += _missing(session, believed)
     if findings:
-        return Judgement(Verdict.FAIL, tuple(sorted(findings, key=lambda it: it.at)), values=values)
+        is_slow = session.held_up > _MOST_HELD_UP
+        reason = f"doubtful: this machine held up the line for {session.held_up:.1f} s" if is_slow else ""
+        return Judgement(Verdict.FAIL, tuple(sorted(findings, key=lambda it: it.at)), reason, values)
     if not session.requests:
         return Judgement(Verdict.INCONCLUSIVE, reason="the driver sent nothing")
     if not session.given:
         return Judgement(Verdict.INCONCLUSIVE, reason="the driver asked for no readings")
     if not session.finished:
         step = max(it.step for it in session.given)
-        reason = f"the driver asked too little: step {step + 1} of {len(session.steps)} was not over in time"
+        reason = f"the driver asked too little: step {step + 1} of {session.steps} was not over in time"
         return Judgement(Verdict.INCONCLUSIVE, reason=reason, values=values)
     return Judgement(Verdict.PASS, values=values)
 
 
 def is_decided(session: Session) -> bool:
     """Return whether waiting changes nothing: a value was wrong, or all values of the last step were reported."""
-    beliefs, wrong = _believed(session)
-    steps = [Belief.MAY] * (len(session.steps) - 1) + [Belief.MUST]
-    return bool(wrong) or not _missing(evolve(session, steps=tuple(steps)), beliefs)
+    beliefs, wrong = _believed(session, 1)
+    return bool(wrong) or not _missing(session, beliefs, session.steps - 1)
 
 
 # --- what was believed ------------------------------------------------------------------------------------------------
@@ -212,8 +223,11 @@ class _Beliefs:
         return (given, told.channel) in self.used
 
 
-def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
-    beliefs, wrong = _Beliefs(), []
+def _believed(session: Session, most: int = _MOST_WRONG) -> tuple[_Beliefs, list[Finding]]:
+    """Return what was believed, and why lines are wrong: of so many at most, and nothing after the last of them."""
+    beliefs = _Beliefs()
+    wrong: list[Finding] = []
+    readings = _readings(session)
     for line in session.lines:
         said = line.said
         if isinstance(said, Unreadable):
@@ -222,9 +236,11 @@ def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
             steps = [it.step for it in _before(session, line) if it.address == said.address]
             beliefs.excused.add((steps[0] if steps else 0, said.address))
             continue
-        use = next(_uses(session, beliefs, line, said), None)
+        use = next(_uses(readings.get((said.address, said.channel), []), beliefs, line, said), None)
         if use is None:
             wrong.append(_wrong(session, beliefs, line, said))
+            if len(wrong) == most:
+                break
         else:
             given, told = use
             beliefs.used.add((given, told.channel))
@@ -232,18 +248,28 @@ def _believed(session: Session) -> tuple[_Beliefs, list[Finding]]:
     return beliefs, wrong
 
 
-def _before(session: Session, line: Line) -> Iterator[Given]:
-    """Yield the answers before a line, the last first."""
-    return (it for it in reversed(session.given) if it.at <= line.at)
-
-
-def _uses(session: Session, beliefs: _Beliefs, line: Line, said: Believed) -> Iterator[_Use]:
-    """Yield the readings that a line may rest on."""
-    for given in _before(session, line):
-        if given.address == said.address and given.belief is not Belief.NEVER and not _is_orphan(session, given):
+def _readings(session: Session) -> dict[tuple[int, int | None], list[_Use]]:
+    """Return the readings that may be believed, by address and channel."""
+    found: dict[tuple[int, int | None], list[_Use]] = {}
+    for given in session.given:
+        if given.belief is not Belief.NEVER and not _is_orphan(session, given):
             for told in given.told:
-                if told.is_believed(said) and not beliefs.has(given, told):
-                    yield given, told
+                found.setdefault((given.address, told.channel), []).append((given, told))
+    return found
+
+
+def _before(session: Session, line: Line) -> Iterator[Given]:
+    """Return the answers before a line, the last first, as far as a line can rest on them."""
+    end = bisect_right(session.given, line.at, key=attrgetter("at"))
+    return reversed(session.given[max(0, end - _RECENT) : end])
+
+
+def _uses(readings: Sequence[_Use], beliefs: _Beliefs, line: Line, said: Believed) -> Iterator[_Use]:
+    """Yield the readings that a line may rest on, the last first."""
+    end = bisect_right(readings, line.at, key=lambda it: it[0].at)
+    for given, told in reversed(readings[max(0, end - _RECENT) : end]):
+        if told.is_believed(said) and not beliefs.has(given, told):
+            yield given, told
 
 
 def _is_orphan(session: Session, given: Given) -> bool:
@@ -311,13 +337,12 @@ def _ago(line: Line, given: Given) -> str:
 # --- what was not -----------------------------------------------------------------------------------------------------
 
 
-def _missing(session: Session, beliefs: _Beliefs) -> list[Finding]:
-    """Return the channels that a driver did not report in a step in which it has to."""
+def _missing(session: Session, beliefs: _Beliefs, first: int = 0) -> list[Finding]:
+    """Return the channels that a driver did not report in a step in which it has to, from a first step on."""
     found = []
-    for step, belief in enumerate(session.steps):
-        if belief is not Belief.MUST:
-            continue
-        given = [it for it in session.given if it.step == step and not _is_orphan(session, it)]
+    must = [it for it in session.given if it.belief is Belief.MUST and not _is_orphan(session, it)]
+    for step in range(first, session.steps):
+        given = [it for it in must if it.step == step]
         for address in dict.fromkeys(it.address for it in given):
             own = [it for it in given if it.address == address]
             for channel in sorted({told.channel for it in own for told in it.told}):

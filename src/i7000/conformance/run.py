@@ -15,7 +15,8 @@ from random import Random
 from attrs import evolve
 
 from i7000.conformance.checks import STEPS
-from i7000.conformance.guard import GuardError
+from i7000.conformance.claims import Claims
+from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.statement import Level, Statement
@@ -48,6 +49,8 @@ class Options:
     timeout_scale: float = 1.0
     writes: int = 64
     seconds: float | None = None
+    claims: Claims | None = None
+    """The statement of the module; without one, that is not checked."""
 
 
 @frozen
@@ -138,10 +141,28 @@ def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
 
 
 def plan(
-    statements: Iterable[Statement], profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]
+    statements: Iterable[Statement],
+    profile: Profile,
+    protocol: Protocol,
+    allowed: frozenset[Hazard],
+    claims: Claims | None = None,
 ) -> tuple[Planned, ...]:
-    """Return the checks of a run in their order, for a module of a profile."""
-    return tuple(Planned(it, _skip(it, profile, protocol, allowed)) for it in statements)
+    """Return the checks of a run in their order, for a module of a profile.
+
+    Special: what `claims` does not claim is not checked. Without claims, the group ``statement`` is left out.
+    """
+    return tuple(
+        Planned(it, _skip(it, profile, protocol, allowed) or _unclaimed(it, claims))
+        for it in statements
+        if claims is not None or it.group != "statement"
+    )
+
+
+def _unclaimed(statement: Statement, claims: Claims | None) -> Skipped | None:
+    """Return why a check is skipped because the statement of the module does not claim what it is about."""
+    if claims is None or claims.covers(statement):
+        return None
+    return Skipped(SkipReason.NOT_APPLICABLE, "the statement of the module does not claim it")
 
 
 def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: frozenset[Hazard]) -> Skipped | None:
@@ -182,6 +203,8 @@ class Run:
         self.began: float | None = None
         self.writes = 0
         """The frames so far that may have changed the EEPROM."""
+        self.guard = Guard(options.allowed)
+        """What was sent so far; as strict as the guard of the port."""
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
         self._answering = False
@@ -195,10 +218,19 @@ class Run:
 
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
+        first = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
+        yield from first.end_line()
+        self.guard = first.guard
         for group in _halves(self.planned):
-            yield from self._checks(group)
+            yield from self.checks(group)
 
-    def _checks(self, group: Sequence[Planned]) -> Procedure[None]:
+    def _subject(self, chance: Random) -> Subject:
+        scale, writes = self.options.timeout_scale, self.options.writes - self.writes
+        now, state = self.now or 0.0, self.twin.state
+        twin = Twin(state.keep(fed_at=now)) if state.ram.protocol is Protocol.MODBUS_RTU else self.twin  # E106
+        return Subject(twin, self.line, scale, chance, now, self.guard, writes, self.options.claims)
+
+    def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
         found = []
         for one in group:
@@ -244,15 +276,8 @@ class Run:
         return None
 
     def _once(self, statement: Statement, *, answering: bool) -> Procedure[CheckResult]:
-        subject = Subject(
-            self.twin,
-            self.line,
-            self.options.timeout_scale,
-            Random(f"{self.options.seed} {statement.id}"),  # noqa: S311 - repeatable
-            self.now or 0.0,
-            answering=answering,
-            writes_left=self.options.writes - self.writes,
-        )
+        subject = self._subject(Random(f"{self.options.seed} {statement.id}"))  # noqa: S311 - repeatable
+        subject.answering = answering
         before = subject.writes_left
         heard = False
         answer: object = None
@@ -286,6 +311,7 @@ class Run:
             verdict, reason = other.verdict, other
         finally:
             steps.close()
+            self.guard = subject.guard
         writes = before - subject.writes_left
         self.writes += writes
         seconds = 0.0 if started is None or self.now is None else self.now - started

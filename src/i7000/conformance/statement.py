@@ -18,7 +18,7 @@ from i7000.settings import Protocol
 
 __all__ = ["GROUPS", "Level", "Statement", "read_statements"]
 
-GROUPS = ("link", "frame", "dcon", "values", "consistency", "rtu", "map", "timing", "stateful", "init")
+GROUPS = ("link", "frame", "dcon", "values", "consistency", "rtu", "map", "timing", "stateful", "init", "statement")
 """The groups in the order of a run: the files of ``spec/checks`` and the modules of `i7000.conformance.checks`."""
 
 

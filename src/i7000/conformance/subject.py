@@ -6,13 +6,13 @@ plain read that every module answers: only its answer shows that the module was 
 
 from collections.abc import Iterable
 from random import Random
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs import define, field
 
 from i7000 import dcon, modbus
-from i7000.conformance.guard import hazards_of
-from i7000.conformance.hazard import Hazard
+from i7000.conformance.guard import Guard, GuardError, hazards_of
+from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
@@ -21,16 +21,20 @@ from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
+if TYPE_CHECKING:
+    from i7000.conformance.claims import Claims
+
 __all__ = ["Subject"]
 
 R = TypeVar("R", bound=Response)
 
 _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
-_REFUSAL = {Protocol.DCON: 0.15, Protocol.MODBUS_RTU: 0.3}
-"""The seconds that a module which should be silent is listened to before the sentinel: for Modbus so long that the guard
-does not see what is sent next as the end of it.
-"""
+_REFUSAL = 0.15
+"""How long a module that should be silent is listened to before the sentinel."""
+_SILENCE = 0.3
+"""The silence in seconds that ends every request by Modbus, also for the guard of the port."""
+_LINE_END = b"#\r"
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _MORE_TRIES = 2
 _PAUSE = 0.3
@@ -55,8 +59,12 @@ class Subject:
     """The time of the line at the end of the last step."""
     answering: bool = False
     """Whether the module answered what was sent last before the check."""
+    guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
+    """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
+    claims: "Claims | None" = None
+    """The statement of the module, if one was given."""
 
     @property
     def protocol(self) -> Protocol:
@@ -117,8 +125,15 @@ class Subject:
         Shape: pieces of a frame follow each other without a pause, or after one of so many seconds.
         """
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
-        for _, wire in parts:
-            self._admit(wire)
+        before = self.guard
+        try:
+            self._admit_all(parts)
+        except GuardError:
+            self.guard = before
+            if not all(hazards_of(wire, self.line) <= self.guard.allowed | {Hazard.OBSERVE} for _, wire in parts):
+                raise
+            yield from self.end_line()
+            self._admit_all(parts)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
@@ -126,12 +141,29 @@ class Subject:
         self.now = heard.now
         return heard
 
-    def _admit(self, wire: bytes) -> None:
-        """Count bytes with which the module changes its EEPROM.
+    def end_line(self) -> Procedure[None]:
+        """End what modules of either protocol may have heard as the beginning of a command or request.
 
-        Errors: `Skipped` if all writes of the run are used up.
+        Special: DCON has no timeout, so that requests by Modbus may add up to a command; a leading character and a
+            carriage return end every such line, and no module carries them out.
         """
-        if hazards_of(wire, self.line) & _STORED:
+        yield Wait(_SILENCE)
+        self.guard = self.guard.after_silence()
+        if self.protocol is Protocol.MODBUS_RTU:
+            self.guard = self.guard.sending(_LINE_END, self.line)
+            self.now = (yield SendBytes(((0.0, _LINE_END),), 0.0)).now
+
+    def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
+        for _, wire in parts:
+            self._admit(wire)
+
+    def _admit(self, wire: bytes) -> None:
+        """Pass bytes to the guard, and count those with which a module would change its EEPROM.
+
+        Errors: `GuardError`; `Skipped` if all writes of the run are used up.
+        """
+        self.guard, hazards = self.guard.judged(wire, self.line)
+        if hazards & _STORED:
             self._count(self.twin.hear(wire, self.now)[0])
 
     def _count(self, after: Twin) -> None:
@@ -211,7 +243,7 @@ class Subject:
         Errors: `Difference`, `Unclear`.
         """
         allowed = tuple(allowed)
-        heard = (yield from self.send(wire, seconds=_REFUSAL[self.protocol] if None in allowed else _TURNAROUND)).wire
+        heard = (yield from self.send(wire, seconds=_REFUSAL if None in allowed else _TURNAROUND)).wire
         if not heard:
             yield from self.alive(wire)
             if None in allowed:
@@ -232,7 +264,7 @@ class Subject:
     def _silent(self, pieces: Iterable[bytes | tuple[float, bytes]]) -> Procedure[None]:
         parts = tuple(pieces)
         sent = b"".join(piece[1] if isinstance(piece, tuple) else piece for piece in parts)
-        heard = (yield from self.send(*parts, seconds=_REFUSAL[self.protocol])).wire
+        heard = (yield from self.send(*parts, seconds=_REFUSAL)).wire
         if heard:
             raise self.wrong(f"answered {len(heard)} bytes", sent, heard, "silence")
         yield from self.alive(sent)

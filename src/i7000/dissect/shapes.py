@@ -19,7 +19,7 @@ _NUMBER = r"[+-](?:\d\.\d{4}|\d\d\.\d{3}|\d{3}\.\d\d|\d{4}\.\d)"
 _HEX = rf"(?:[0-9A-F]{{4}}|{_SENTINEL})"
 _FIELDS = rf"(?:(?:\x20{{4}})*{_HEX}(?:{_HEX}|\x20{{4}})*|(?:{_NUMBER}|{_SENTINEL}|\x20{{7}})+)"
 _WIDTHS = {"channel_digits": "{1,2}", "mask_digits": "{2,6}"}
-_NAME = r"[^\s%#$~@!>?]{1,6}"
+_NAME = r"[\"&-=A-}]{1,6}"
 _RESTS = {"values": _FIELDS, "value": _FIELDS, "name": _NAME, "version": r"[A-Z]\d+\.\d+"}
 _SIGNED = {"offset": "[+-][0-9A-F]{4}", "temperature": r"[+-]\d{4}\.\d"}
 _CHECKSUM = r"(?:[0-9A-F]{2})?"

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from i7000.link.async_line import AsyncLine
+    from i7000.link.bench import Bench, BenchError
     from i7000.link.errors import LinkError
     from i7000.link.guarded import BudgetError, GuardedPort
     from i7000.link.line import Line
@@ -27,6 +28,8 @@ __all__ = [
     "Abandoned",
     "Asked",
     "AsyncLine",
+    "Bench",
+    "BenchError",
     "BudgetError",
     "GuardedPort",
     "Happened",
@@ -45,6 +48,7 @@ __all__ = [
 
 _PLACES = {
     "async_line": ("AsyncLine",),
+    "bench": ("Bench", "BenchError"),
     "errors": ("LinkError",),
     "guarded": ("BudgetError", "GuardedPort"),
     "line": ("Line",),

@@ -173,7 +173,7 @@ class GuardedPort:
             raise AttributeError(f"{self.name} has no {name}", name=name, obj=self)
         method = getattr(self.__port, name)
 
-        def call(*arguments: float, **options: bool) -> object:
+        def call(*arguments: float, **options: bool | None) -> object:
             if name == "power_cycle":
                 self.__guard = Guard(self.__guard.allowed)
             return method(*arguments, **options)

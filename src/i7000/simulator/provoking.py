@@ -70,7 +70,7 @@ class Player:
             session,
             given=tuple(self.given),
             requests=tuple(self.requests),
-            steps=tuple(step.belief for step in self._steps),
+            steps=len(self._steps),
             finished=self.finished,
         )
 
@@ -86,7 +86,8 @@ class Player:
         step = self._steps[self._step]
         arrived = observed.at + observed.pieces[-1].after if observed.pieces else inf
         event = len(self.exchanges) - 1
-        self.given.append(Given(observed.at, arrived, address, self._step, step.belief, told, event, observed.faults))
+        belief = step.belief_by(observed.protocol)
+        self.given.append(Given(observed.at, arrived, address, self._step, belief, told, event, observed.faults))
         self._answered[address] += 1
         if not self.finished and self._is_over(step):
             self._go_on()

@@ -4,14 +4,16 @@ from functools import partial
 from typing import Any
 
 from i7000 import dcon
+from i7000.conformance.checks import consistency_modbus
 from i7000.conformance.checks.readings import Asked, agree
-from i7000.conformance.checks.steps import Steps, told
+from i7000.conformance.checks.steps import Steps, one_digit, told
 from i7000.conformance.checks.values import asked_at_once
+from i7000.conformance.oracle import readings_of
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Strange, Unclear
 from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
-from i7000.readings import Status
+from i7000.readings import Reading, Status
 from i7000.settings import Protocol
 from i7000.type_codes import MIXED
 
@@ -22,7 +24,7 @@ __all__ = ["STEPS"]
 
 
 def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]:
-    """Ask twice for what does not change, with another question between."""
+    """Read twice what does not change, with another read between."""
     _, first = yield from told(module, command(module.address))
     yield from told(module, dcon.ReadConfiguration(module.address))
     _, again = yield from told(module, command(module.address))
@@ -31,26 +33,32 @@ def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]
 
 
 def _one_by_one(module: Subject) -> Procedure[Asked]:
-    found, wires, heards = [], [], []
-    for channel in module.channels:
+    found: list[tuple[int, Reading]] = []
+    wires, heards = [], []
+    for channel in one_digit(module):
         command = dcon.ReadAnalogInput(module.address, channel)
         response, heard = yield from told(module, command)
         try:
-            found.append((channel, dcon.reading(response, channel, module.profile)))
+            (reading,) = readings_of(response, module.profile, channel)
         except DecodeError as error:
             raise module.wrong(str(error), module.wire(command), heard, "a reading of its type") from None
+        found.append((channel, reading))
         wires.append(module.wire(command))
         heards.append(heard)
     return Asked(tuple(found), b"".join(wires), b"".join(heards))
 
 
 def _channels(module: Subject) -> Procedure[None]:
-    at_once = partial(asked_at_once, module, dcon.ReadAnalogInputs(module.address))
-    yield from agree(module, at_once, partial(_one_by_one, module))
+    yield from agree(module, partial(_at_once, module), partial(_one_by_one, module))
+
+
+def _at_once(module: Subject) -> Procedure[Asked]:
+    asked = yield from asked_at_once(module, dcon.ReadAnalogInputs(module.address))
+    return asked._replace(readings=asked.readings[: one_digit(module).stop])
 
 
 def _type_codes(module: Subject) -> Procedure[None]:
-    """Compare the type of $AA2 with those of $AA8Ci; how mixed types are told is open."""
+    """Compare the type of $AA2 with those of $AA8Ci; the code for mixed types is open."""
     types = []
     for channel in module.channels:
         response, _ = yield from told(module, dcon.ReadChannelTypeCode(module.address, channel))
@@ -139,9 +147,7 @@ def _sampled(module: Subject) -> Procedure[None]:
     def sampled() -> Procedure[Asked]:
         wire = module.wire(dcon.SynchronizedSampling())
         yield from module.send(wire, seconds=0.05)
-        command = dcon.ReadSynchronizedData(module.address)
-        response, heard = yield from told(module, command)
-        return Asked(tuple(enumerate(dcon.readings(response, module.profile))), wire + module.wire(command), heard)
+        return (yield from asked_at_once(module, dcon.ReadSynchronizedData(module.address)))
 
     yield from agree(module, partial(asked_at_once, module, dcon.ReadAnalogInputs(module.address)), sampled)
 
@@ -162,4 +168,5 @@ STEPS: dict[str, Steps] = {
     "consistency/protocol": _protocol,
     "consistency/line": _line,
     "consistency/sampled": _sampled,
+    **consistency_modbus.STEPS,
 }

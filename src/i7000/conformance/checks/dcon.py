@@ -12,7 +12,7 @@ from typing import Any
 
 from i7000 import dcon
 from i7000.conformance.checks import dcon_calibration, dcon_line, dcon_settings
-from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, with_tail
+from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, one_digit, with_tail
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note
 from i7000.errors import DecodeError
@@ -72,6 +72,16 @@ def _reply_of_channels(command: OfChannel, module: Subject) -> Procedure[None]:
         yield from module.expect(command(module.address, channel))
 
 
+def _reading_of_channels(module: Subject) -> Procedure[None]:
+    for channel in one_digit(module):
+        yield from module.expect(dcon.ReadAnalogInput(module.address, channel))
+
+
+def _reading_of_later_channels(module: Subject) -> Procedure[None]:
+    for channel in module.channels[10:]:
+        yield from module.expect(dcon.ReadAnalogInput(module.address, channel))
+
+
 def _channel_not_longer(command: OfChannel, module: Subject) -> Procedure[None]:
     yield from not_carried_out(module, with_tail(module, command(module.address, 0)))
 
@@ -122,7 +132,7 @@ def _read_again(module: Subject, first: dcon.SynchronizedData) -> Procedure[None
 
 
 def _sample(module: Subject, *, tail: bool = False) -> Procedure[None]:
-    """Broadcast ``#**``, which no module answers; with `tail` it is no command."""
+    """Broadcast ``#**``, which no module answers; with `tail`, it has characters too many."""
     command = dcon.SynchronizedSampling()
     wire = with_tail(module, command) if tail else module.wire(command)
     module.hear(wire)
@@ -170,7 +180,7 @@ def _unknown(module: Subject) -> Procedure[None]:
 def _way_of_refusal(module: Subject) -> Procedure[None]:
     body = (_UNKNOWN[0] % module.address).encode()
     heard = yield from module.expect_one_of(module.seal(body) + b"\r", (None, module.refused))
-    raise Note(f"an unknown command is answered {'with silence' if heard is None else _text(heard)}", erratum="E27")
+    raise Note(f"an unknown command is answered with {'silence' if heard is None else _text(heard)}", erratum="E27")
 
 
 def _of_other_models(module: Subject) -> Procedure[None]:
@@ -209,7 +219,11 @@ STEPS: dict[str, Steps] = {
         f"dcon/{section}/reply-n2": partial(_no_more_channels, command)
         for section, command in _READS_OF_CHANNELS.items()
     },
+    "dcon/2.4/reply": _reading_of_channels,
+    "dcon/2.4/channels-a-to-f": _reading_of_later_channels,
+    "dcon/2.14/reply-of-16": partial(_reply, dcon.ReadChannelMask),
     "dcon/2.22/reply": _diagnostics,
+    "dcon/2.22/reply-of-10": _diagnostics,
     "dcon/2.12/reply": _kept,
     "dcon/2.12/reply-n1": partial(_not_longer, dcon.ReadSynchronizedData),
     "dcon/2.2/sampling": _sampling,

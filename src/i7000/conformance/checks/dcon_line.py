@@ -53,7 +53,6 @@ def _no_configuration(module: Subject) -> Procedure[None]:
     old, other = configuration(module), other_configuration(module)
     body = body_of(module, other)
     wires = (
-        module.seal(body[:-1] + b"%X" % (int(body[-1:], 16) | 3)) + b"\r",
         module.seal(body[:-1]) + b"\r",
         with_tail(module, other),
     )

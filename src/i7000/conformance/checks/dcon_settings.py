@@ -226,7 +226,7 @@ def _set_name(module: Subject) -> Procedure[None]:
 def _no_longer_name(module: Subject) -> Procedure[None]:
     old = dcon.SetModuleName(module.address, _memory(module).name)
     body = body_of(module, other_name(module))
-    tries = not_carried_out(module, module.seal(body + b"9") + b"\r", module.seal(body[:4]) + b"\r")
+    tries = not_carried_out(module, module.seal(body + b"9") + b"\r")
     yield from unchanged(module, tries, old, dcon.ReadModuleName(module.address))
 
 

@@ -12,12 +12,13 @@ from attrs import evolve
 
 from i7000 import dcon
 from i7000.conformance.checks.dcon_line import configuration, other_configuration, other_protocol
-from i7000.conformance.checks.dcon_settings import other_mask, other_name, other_type
+from i7000.conformance.checks.dcon_settings import other_mask, other_type
 from i7000.conformance.checks.steps import Steps, put_back, told
 from i7000.conformance.oracle import Twin
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason, Skipped, SkipReason
 from i7000.host.procedures import Procedure
+from i7000.models import Model
 from i7000.settings import BaudRate
 
 __all__ = ["STEPS"]
@@ -63,18 +64,15 @@ def _not_taken(module: Subject, tried: dcon.SetConfiguration, old: dcon.SetConfi
 
 
 def _written_back(module: Subject, tried: dcon.SetConfiguration, old: dcon.SetConfiguration) -> Procedure[None]:
-    """Write the configuration at the settings that the module should have, then at those that were tried."""
-    right, line = module.twin, module.line
-    for taken in (old, tried):
-        state = right.state.keep(line_settings=taken.line_settings, checksum=taken.report_settings.checksum)
-        module.twin = Twin(state)
+    """Write the configuration at the settings that were tried, then at its own, which the module has at the end."""
+    state = module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings)
+    for taken in (tried, old):
+        module.twin = Twin(state.keep(line_settings=taken.line_settings, checksum=taken.report_settings.checksum))
         yield from module.tune(taken.line_settings)
         if dcon.SoftInit.availability not in module.profile.refused:
             for command in (dcon.SetSoftInitTimeout(module.address, _WINDOW), dcon.SoftInit(module.address)):
                 yield from module.send(module.wire(command))
         yield from module.send(module.wire(old))
-    module.twin = right
-    yield from module.tune(line)
 
 
 # --- the address ------------------------------------------------------------------------------------------------------
@@ -119,23 +117,21 @@ def _permitted(module: Subject, command: dcon.SetConfiguration) -> Procedure[Non
     yield from module.expect(dcon.ReadConfiguration(module.address))
 
 
-def _by_soft_init(change: Changing, module: Subject) -> Procedure[None]:
+def _by_soft_init(module: Subject) -> Procedure[None]:
     module.reserve(2)
     old = configuration(module)
+    new = _checksum(_baud(old))
     try:
-        yield from _permitted(module, change(old))
+        yield from _permitted(module, new)
         yield from _permitted(module, old)
         yield from module.expect(dcon.SetSoftInitTimeout(module.address, 0))
     except Reason:
-        yield from _written_back(module, change(old), old)
-        module.twin = Twin(
-            module.twin.state.store(line_settings=old.line_settings, report_settings=old.report_settings)
-        )
+        yield from _written_back(module, new, old)
         raise
 
 
 def _shut(timeout: int, wait: float, module: Subject) -> Procedure[None]:
-    """Ask for soft INIT with a timeout, and set another baud rate when it is over."""
+    """Open the soft INIT window, and set another baud rate when its timeout is over."""
     yield from module.expect(dcon.SetSoftInitTimeout(module.address, timeout))
     yield from module.expect(dcon.SoftInit(module.address))
     yield from module.wait(wait)
@@ -195,9 +191,9 @@ def _by_switch(
     yield from _and_back(module, _stored(module, old))
 
 
-def _configured_by_switch(change: Changing, module: Subject) -> Procedure[None]:
+def _line_by_switch(module: Subject) -> Procedure[None]:
     old = configuration(module)
-    yield from _by_switch(change(old), old, module)
+    yield from _by_switch(_checksum(_baud(old)), old, module)
 
 
 def _protocol_by_switch(module: Subject) -> Procedure[None]:
@@ -231,11 +227,13 @@ def _kept(
 
 def _settings_kept(module: Subject) -> Procedure[None]:
     memory, address = module.twin.state.eeprom, module.address
-    changes: list[Change] = [
-        (other_name(module), dcon.SetModuleName(address, memory.name)),
-        (dcon.SetChannelMask(address, other_mask(module)), dcon.SetChannelMask(address, module.twin.state.enabled)),
-    ]
-    reads: list[dcon.Command[Any]] = [dcon.ReadModuleName(address), dcon.ReadChannelMask(address)]
+    changes: list[Change] = []
+    reads: list[dcon.Command[Any]] = []
+    if module.model is not Model.M_7018_16:  # how many digits it has there is open (E12)
+        masks = (other_mask(module), module.twin.state.enabled)
+        new_mask, old_mask = (dcon.SetChannelMask(address, mask) for mask in masks)
+        changes.append((new_mask, old_mask))
+        reads.append(dcon.ReadChannelMask(address))
     if dcon.SetChannelTypeCode.availability not in module.profile.refused:
         now = memory.type_codes[0]
         new, old = (dcon.SetChannelTypeCode(address, 0, code) for code in (other_type(module, now), now))
@@ -264,13 +262,11 @@ STEPS: dict[str, Steps] = {
     "init/baud-refused": partial(_refused, _baud),
     "init/checksum-refused": partial(_refused, _checksum),
     "init/new-address": _new_address,
-    "init/soft-init-baud": partial(_by_soft_init, _baud),
-    "init/soft-init-baud-n1": partial(_shut, 1, 1.5),
-    "init/soft-init-checksum": partial(_by_soft_init, _checksum),
-    "init/soft-init-checksum-n1": partial(_shut, 0, 0.0),
+    "init/soft-init": _by_soft_init,
+    "init/soft-init-n1": partial(_shut, 1, 1.5),
+    "init/soft-init-n2": partial(_shut, 0, 0.0),
     "init/switch": _init,
-    "init/switch-baud": partial(_configured_by_switch, _baud),
-    "init/switch-checksum": partial(_configured_by_switch, _checksum),
+    "init/switch-line": _line_by_switch,
     "init/switch-protocol": _protocol_by_switch,
     "init/kept-settings": _settings_kept,
     "init/kept-configuration": _configuration_kept,

@@ -13,6 +13,7 @@ from i7000.conformance.checks.modbus_steps import (
     MOST,
     VALUE,
     agree,
+    distance,
     gaps,
     items,
     of_area,
@@ -88,16 +89,10 @@ def _single_readings(module: Subject, row: Register) -> Procedure[str | None]:
         (alone[channel],) = yield from items(module, row.area, row.address + channel)
     after = yield from read_row(module, row)
     for channel, word in alone.items():
-        near = min(_distance(word, before[channel]), _distance(word, after[channel]))
+        near = min(distance(word, before[channel]), distance(word, after[channel]))
         if near > _NOISE:
             return f"channel {channel} is {word:04X} alone, {before[channel]:04X} and {after[channel]:04X} with others"
     return None
-
-
-def _distance(one: int, other: int) -> int:
-    """Return the distance of two words, which may be signed or not."""
-    apart = abs(one - other)
-    return min(apart, 0x10000 - apart)
 
 
 def _records(module: Subject, row: Register) -> Procedure[None]:

@@ -44,10 +44,6 @@ def _flipped(_: Subject, value: int) -> int:
     return 1 - value
 
 
-def _kept(_: Subject, value: int) -> int:
-    return value
-
-
 def _one_of(*values: int) -> Other:
     """Return the first of some values that the item does not have."""
     return lambda _, value: next(it & 0xFFFF for it in values if it & 0xFFFF != value)
@@ -91,7 +87,6 @@ _OTHERS: Mapping[str, Other] = {
     "channel_mask": _other_mask(0),
     "channel_mask_high": _other_mask(16),
     "cjc_update": _one_of(0, 1),
-    "host_watchdog_timed_out": _kept,
     "log_command": _one_of(2),
     "log_period_hour": _one_of(7, 8),
     "log_period_minute": _one_of(9, 10),
@@ -144,8 +139,6 @@ def _block_written(area: Area, names: Sequence[str], module: Subject) -> Procedu
     before = yield from items(module, area, rows[0].address, len(rows))
     if rows[0].name == "log_command":
         _check_stopped(before[0])
-    counted = [at for at, row in enumerate(rows) if row.cleared_by is not None and before[at]]
-    rows, before = rows[: counted[0] if counted else None], before[: counted[0] if counted else None]
     new = tuple(_OTHERS.get(row.name, _flipped)(module, value) for row, value in zip(rows, before, strict=True))
     put = partial(_put_all, module, rows)
     yield from changed_and_restored(module, put(new), partial(put, before))
@@ -158,26 +151,26 @@ def _check_stopped(command: int) -> None:
 
 
 def _put_all(module: Subject, rows: Sequence[Register], values: Sequence[int]) -> Procedure[None]:
-    """Write and read items of several rows; a state that can only be cleared, and is not set, is cleared."""
+    """Write and read items of several rows."""
     area, start = rows[0].area, rows[0].address
-    cleared = (row.cleared_by for row in rows)
-    sent = [value if clear is None else clear for value, clear in zip(values, cleared, strict=True)]
     request: Any
     if area is Area.COIL:
-        request = modbus.WriteMultipleCoils(module.address, start, tuple(map(bool, sent)))
+        request = modbus.WriteMultipleCoils(module.address, start, tuple(map(bool, values)))
     else:
-        request = modbus.WriteMultipleRegisters(module.address, start, tuple(sent))
+        request = modbus.WriteMultipleRegisters(module.address, start, tuple(values))
     yield from module.expect(request)
     _compare(module, request, rows[0].kind, (yield from items(module, area, start, len(rows))), values)
 
 
-def _count_cleared(area: Area, name: str, module: Subject) -> Procedure[None]:
-    """Clear a counter that is clear, as any other would be lost."""
+def _cleared(area: Area, name: str, module: Subject) -> Procedure[None]:
+    """Clear a counter or a state that is clear: any other would be lost."""
     row = row_of(module, area, name)
     (before,) = yield from read_row(module, row)
     if before:
         raise Unclear(f"{name} is {before}; clearing it would lose that")
-    yield from _put_and_read(module, row, 0, (0,))
+    request = write_of(row, 0, (row.cleared_by or 0,))(module.address)
+    yield from module.expect(request)
+    _compare(module, request, row.kind, (yield from read_row(module, row)), (0,))
 
 
 def _pair_written(area: Area, name: str, module: Subject) -> Procedure[None]:
@@ -363,20 +356,29 @@ _ALONE: Mapping[str, Area] = {
         ),
         _HOLDING,
     ),
-    **dict.fromkeys(("sampling_rate", "open_wire_detection", "single_ended", "big_endian", "protocol"), _COIL),
+    **dict.fromkeys(
+        (
+            "filter", "host_watchdog_mode", "cjc_enabled", "modbus_data_format", "fast_mode", "sampling_rate",
+            "open_wire_detection", "single_ended", "big_endian", "protocol",
+        ),
+        _COIL,
+    ),
 }  # fmt: skip
 """The rows that are written alone."""
 _TOGETHER: Mapping[str, tuple[Area, tuple[str, ...]]] = {
     "channels": (_HOLDING, ("channel_mask", "module_cjc_offset")),
-    "filter": (_COIL, ("filter", "host_watchdog_mode")),
-    "switches": (_COIL, ("cjc_enabled", "modbus_data_format", "host_watchdog_timed_out", "fast_mode")),
+    "coils": (_COIL, ("filter", "host_watchdog_mode")),
     "log": (_HOLDING, _LOG),
 }
 """The rows that are written with one request: neighbours, of which a module may not have the first or the last."""
 _OTHERWISE: Mapping[str, tuple[tuple[tuple[Area, str], ...], Steps]] = {
     "host_watchdog_timeout_count": (
         ((_HOLDING, "host_watchdog_timeout_count"),),
-        partial(_count_cleared, _HOLDING, "host_watchdog_timeout_count"),
+        partial(_cleared, _HOLDING, "host_watchdog_timeout_count"),
+    ),
+    "host_watchdog_timed_out": (
+        ((_COIL, "host_watchdog_timed_out"),),
+        partial(_cleared, _COIL, "host_watchdog_timed_out"),
     ),
     "log_read_index": (((_HOLDING, "log_read_index"),), partial(_pair_written, _HOLDING, "log_read_index")),
     "clock": (tuple((_HOLDING, name) for name in _CLOCK), _clock_written),

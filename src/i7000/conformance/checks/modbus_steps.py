@@ -14,7 +14,7 @@ from attrs import evolve
 from i7000 import modbus
 from i7000.conformance.oracle import Twin, difference
 from i7000.conformance.subject import Subject
-from i7000.conformance.verdict import Note, Reason, Skipped, SkipReason, Unclear
+from i7000.conformance.verdict import Note, Reason, Unclear
 from i7000.host.procedures import Procedure
 from i7000.host.procedures.access import registers_of
 from i7000.modbus import Access, Area, ExceptionCode, Register
@@ -30,6 +30,7 @@ __all__ = [
     "address_changed",
     "agree",
     "changed_and_restored",
+    "distance",
     "gaps",
     "items",
     "of_area",
@@ -140,6 +141,12 @@ def agree(compare: Callable[[], Procedure[str | None]], module: Subject) -> Proc
     raise module.wrong(found or "", b"", b"", "the same in both")
 
 
+def distance(one: int, other: int) -> int:
+    """Return the distance of two words, which may be signed or not."""
+    apart = abs(one - other)
+    return min(apart, 0x10000 - apart)
+
+
 # --- what is refused --------------------------------------------------------------------------------------------------
 
 
@@ -177,8 +184,7 @@ def changed_and_restored(
     Special: what fails is restored, or restored once more.
     Errors: `Skipped` if not enough writes are left for that: nothing is sent then.
     """
-    if module.writes_left < 3 * frames:
-        raise Skipped(SkipReason.BUDGET, "the EEPROM writes of the run are nearly used up")
+    module.reserve(3 * frames)
     try:
         yield from change
         yield from restore()

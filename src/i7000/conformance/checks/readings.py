@@ -36,9 +36,9 @@ Ask = Callable[[], Procedure[Asked]]
 
 
 def agree(module: Subject, one: Ask, other: Ask) -> Procedure[None]:
-    """Ask for readings in two ways, which must agree.
+    """Compare readings that are read in two ways, which must agree.
 
-    Special: what differs is asked again, twice at most.
+    Special: what differs is read again, twice at most.
     Errors: `Difference`; `Unclear` if the signals move too fast.
     """
     left = _TRIES

@@ -11,7 +11,18 @@ from i7000.host.procedures import Procedure
 from i7000.message import Query
 from i7000.profile import Profile
 
-__all__ = ["Steps", "beyond", "body_of", "changed", "not_carried_out", "put_back", "told", "unchanged", "with_tail"]
+__all__ = [
+    "Steps",
+    "beyond",
+    "body_of",
+    "changed",
+    "not_carried_out",
+    "one_digit",
+    "put_back",
+    "told",
+    "unchanged",
+    "with_tail",
+]
 
 R = TypeVar("R", bound=dcon.Response)
 
@@ -35,7 +46,7 @@ def with_tail(module: Subject, command: Query[Any]) -> bytes:
 
 
 def not_carried_out(module: Subject, *wires: bytes) -> Procedure[None]:
-    """Send frames that are no commands: each is refused or ignored.
+    """Send frames that the module must not carry out: each is refused or ignored.
 
     Special: silence is followed by a read that the module answers.
     Manual: 2; E27 (which of the two it is).
@@ -63,6 +74,11 @@ def told(module: Subject, command: dcon.Command[R], profile: Profile | None = No
     return response, heard
 
 
+def one_digit(module: Subject) -> range:
+    """Return the channels that #AAN can name for sure: what stands for channel 10 in one digit is open (E21)."""
+    return module.channels[:10] if module.profile.channel_digits == 1 else module.channels
+
+
 def beyond(channels: Iterable[int], digits: int) -> list[int]:
     """Return the first channel after some, and the last that can be written in so many hex digits."""
     return sorted({max(channels) + 1, 16**digits - 1}.intersection(range(max(channels) + 1, 16**digits)))
@@ -86,7 +102,7 @@ def changed(module: Subject, new: Query[Any], old: Query[Any], *reads: Query[Any
 
 
 def unchanged(module: Subject, tries: Procedure[None], old: Query[Any], *reads: Query[Any]) -> Procedure[None]:
-    """Make tries that the module must not carry out, and read the setting; write it again if something is wrong."""
+    """Make attempts that the module must not carry out, and read the setting; write it again if something is wrong."""
     module.reserve(1)
     try:
         yield from tries

@@ -1,0 +1,1 @@
+"""One program a target, for Atheris and ClusterFuzzLite."""
