@@ -130,13 +130,21 @@ def _matches(statement: Statement, text: str) -> bool:
 def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
     """Add what is needed, and the negative halves."""
     left = list(found)
+    halves = _by_positive(known.values())
     while left:
         one = left.pop()
-        halves = [it.id for it in known.values() if it.positive == one]
-        for other in (*known[one].needs, *halves):
+        for other in (*known[one].needs, *(it.id for it in halves.get(one, ()))):
             if other not in found:
                 found.add(other)
                 left.append(other)
+    return found
+
+
+def _by_positive(statements: Iterable[Statement]) -> dict[str | None, list[Statement]]:
+    """Return the negative halves of checks, by the ids of those."""
+    found: dict[str | None, list[Statement]] = {}
+    for one in statements:
+        found.setdefault(one.positive, []).append(one)
     return found
 
 
@@ -182,11 +190,11 @@ def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: f
 
 def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
     """Yield each check with its negative halves after it."""
-    ids = {it.statement.id for it in planned}
+    by_id = {it.statement.id: it for it in planned}
+    halves = _by_positive(it.statement for it in planned)
     for one in planned:
-        if one.statement.positive in ids:
-            continue
-        yield [one, *(it for it in planned if it.statement.positive == one.statement.id)]
+        if one.statement.positive not in by_id:
+            yield [one, *(by_id[it.id] for it in halves.get(one.statement.id, ()))]
 
 
 class Run:

@@ -57,14 +57,14 @@ class Subject:
     chance: Random = field(factory=lambda: Random(0))  # noqa: S311 - repeatable
     now: float = 0.0
     """The time of the line at the end of the last step."""
-    answering: bool = False
-    """Whether the module answered what was sent last before the check."""
     guard: Guard = field(factory=lambda: Guard(DEFAULT_ALLOWED))
     """What may be sent; the port has a guard of its own."""
     writes_left: int = 64
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
     claims: "Claims | None" = None
     """The statement of the module, if one was given."""
+    answering: bool = False
+    """Whether the module answered what was sent last before the check."""
 
     @property
     def protocol(self) -> Protocol:
@@ -151,7 +151,7 @@ class Subject:
         self.guard = self.guard.after_silence()
         if self.protocol is Protocol.MODBUS_RTU:
             self.guard = self.guard.sending(_LINE_END, self.line)
-            self.now = (yield SendBytes(((0.0, _LINE_END),), 0.0)).now
+            self.now = (yield SendBytes(((0.0, _LINE_END),), _SILENCE)).now
 
     def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
         for _, wire in parts:

@@ -9,13 +9,14 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 from math import inf
-from typing import Any
 
 from i7000 import Noise, Protocol, dcon, modbus
 from i7000.device import Eeprom, Signals, State, Uart, power_on, step
 
 SILENCE = 3.5
 """The characters of silence that end a frame of Modbus RTU."""
+_LISTEN = 0.02
+"""The seconds without bytes that are such a silence where there is no line: a pipe has no baud rate."""
 
 
 class Animal:
@@ -159,7 +160,7 @@ class AnimalPort:
             if times[2] == min(times) and self.animal.period:
                 self._unasked_at = times[2] + self.animal.period
                 self._send(self.animal.unasked(), times[2])
-            elif times[0] < inf and times[0] <= begins:
+            elif times[0] < inf and times[0] <= begins + 1e-9:
                 self._silent_at = None
                 self._hear(self.animal.silence, times[0])
             elif sent is not None:
@@ -189,12 +190,21 @@ class AnimalPort:
         """Do nothing."""
 
 
-def serve(animal: Animal, read: Any, write: Any, clock: Any) -> None:
+def serve(
+    animal: Animal,
+    read: Callable[[float], bytes | None],
+    write: Callable[[bytes], None],
+    clock: Callable[[], float],
+    sleep: Callable[[float], None],
+) -> None:
     """Play firmware until its input ends: `read(seconds)` returns bytes, None for silence, and b"" at the end."""
-    while True:
-        data = read(0.02)
-        if data == b"":
-            return
+    spoken = clock()
+    while (data := read(_LISTEN)) != b"":
+        delay = animal.delay()
         answer = animal.silence(clock()) if data is None else animal.hear(data, clock())
         if answer:
+            sleep(delay)
             write(answer)
+        if animal.period and clock() - spoken >= animal.period:
+            spoken = clock()
+            write(animal.unasked())

@@ -258,8 +258,9 @@ def _masked(said: bytes, at: int, mask: int) -> bytes:
 
 HERD.add("7fff-for-8000", "A reading below the range is 7FFF in hex.", saying(b"8000", b"7FFF", to=rb"\$01A"), BIPOLAR,
          "values/hex", scale=-100.0)  # fmt: skip
-HERD.add("over-range-of-another-type", "Over range is +999.99 with every type.",
-         saying(rb"\+9999\.?9?", b"+999.99", to=rb"#01$"), BIPOLAR, "values/sentinels", scale=100.0)  # fmt: skip
+HERD.add("over-range-of-another-type", "Over range of a thermocouple is +999.99, as in percent.",
+         saying(rb"\+9999", b"+999.99", to=rb"#01$"), settings(M_7019R, type_codes=(TypeCode.K,) * 8),
+         "values/sentinels", scale=1000.0)  # fmt: skip
 HERD.add("sign-lost", "Readings in engineering units lose their minus.", saying(b"-", b"+", to=rb"#01"), BIPOLAR,
          "values/hex", scale=-1.0)  # fmt: skip
 HERD.add("faults-not-told", "The bits of $AAB are always 0.", saying(b"^!01..", b"!0100", to=rb"\$01B"),
@@ -439,7 +440,7 @@ class ChecksumWithoutInit(Animal):
         return super().step(state, frame, now)
 
 
-@HERD.animal("window-never-ends", PLAIN, "init/soft-init-baud-n1", allow=[BROADCAST, COMM])
+@HERD.animal("window-never-ends", PLAIN, "init/soft-init-n1", allow=[BROADCAST, COMM])
 class WindowNeverEnds(Animal):
     """Soft INIT does not end after its timeout."""
 
@@ -452,7 +453,7 @@ class WindowNeverEnds(Animal):
         return super().step(state.keep(soft_init_until=now + 1.0) if self.opened else state, frame, now)
 
 
-@HERD.animal("window-without-timeout", PLAIN, "init/soft-init-checksum-n1", allow=[BROADCAST, COMM])
+@HERD.animal("window-without-timeout", PLAIN, "init/soft-init-n2", allow=[BROADCAST, COMM])
 class WindowWithoutTimeout(Animal):
     """Soft INIT begins with a timeout of 0 too."""
 
@@ -462,10 +463,10 @@ class WindowWithoutTimeout(Animal):
 
 
 HERD.add("no-soft-init", "Soft INIT is acknowledged and does nothing.", acknowledging(rb"~01I$"), PLAIN,
-         "init/soft-init-baud init/soft-init-checksum", allow=[BROADCAST, COMM])  # fmt: skip
+         "init/soft-init", allow=[BROADCAST, COMM])  # fmt: skip
 
 
-@HERD.animal("baud-rate-at-once", PLAIN, "init/switch-baud", allow=[BROADCAST, COMM])
+@HERD.animal("baud-rate-at-once", PLAIN, "init/switch-line", allow=[BROADCAST, COMM])
 class BaudRateAtOnce(Animal):
     """In INIT mode, a baud rate is used at once, not from the next power-on."""
 

@@ -137,7 +137,7 @@ class UnknownFunctionsIgnored(Animal):
 
 
 HERD.add("answers-with-another-function", "Function 04 is answered with function 03.",
-         saying(rb"^(.)\x04", lambda found: found[1] + b"\3"), PLAIN, "map/input_register/analog_input rtu/04/counts", others=5)  # fmt: skip
+         saying(rb"^(.)\x04", lambda found: found[1] + b"\3"), PLAIN, "map/input_register/analog_input rtu/04/counts", others=9)  # fmt: skip
 HERD.add("bit-7-ignored", "A function code with bit 7 is carried out.",
          hearing(rb"^\x01([\x84\xc6])", lambda found: b"\1" + bytes((found[1][0] & 0x7F,))), PLAIN,
          "rtu/function/bit-7")  # fmt: skip
@@ -177,7 +177,7 @@ class ReadsOneMore(Animal):
 
 
 HERD.add("long-requests-taken", "A byte after a read is ignored.", hearing(rb"^(\x01[\x01-\x04]....)\x00$", rb"\1"), PLAIN,
-         "rtu/04/length", others=2)  # fmt: skip
+         "rtu/04/length", others=3)  # fmt: skip
 HERD.add("gaps-read-as-zeros", "Registers that are not there are read as 0.",
          answering(lambda heard, said: heard[:2] + b"\2\0\0" if said[1:] == b"\x84\2" and heard[4:] == b"\0\1" else said),
          PLAIN, "map/gaps/input_register rtu/04/counts-n2")  # fmt: skip
@@ -237,8 +237,8 @@ HERD.add("readings-shifted", "The input register of a channel alone is that of t
          "map/input_register/analog_input", others=2)  # fmt: skip
 HERD.add("single-reads-refused", "A register can only be read with its neighbours.",
          refusing(rb"\x01\x04\x00[\x00-\x07]\x00\x01"), PLAIN, "map/input_register/analog_input", others=10)  # fmt: skip
-HERD.add("many-reads-refused", "More than eight registers cannot be read at once.",
-         refusing(rb"\x01\x03..\x00[\x09-\x7d]", 3), PLAIN, "map/across/holding_register", others=5)  # fmt: skip
+HERD.add("many-reads-refused", "More than seven registers cannot be read at once.",
+         refusing(rb"\x01\x03..\x00[\x08-\x7d]", 3), PLAIN, "map/across/holding_register", others=9)  # fmt: skip
 
 
 @HERD.animal("reset-status-stays", PLAIN, "map/coil/reset_status")
@@ -290,7 +290,7 @@ HERD.add("any-value-is-on", "A coil takes the value 0001 for FF00.", acknowledgi
          "rtu/05/values", allow=[WRITE])  # fmt: skip
 HERD.add("read-only-acknowledged", "Writes to the readings are acknowledged.", acknowledging(rb"\x01\x06\x00[\x00-\x1f]"), PLAIN,
          "map/read-only/holding_register/analog_input", allow=[WRITE])  # fmt: skip
-HERD.add("undefined-types-taken", "An undefined type code is acknowledged.", acknowledging(rb"\x01\x06\x01[\x00-\x07]\x00[\x30-\xff]"),
+HERD.add("undefined-types-taken", "An undefined type code is acknowledged.", acknowledging(rb"\x01\x06\x01[\x00-\x07]\x00[\x1b\x1c]"),
          PLAIN, "map/write/type_code-n1", allow=[WRITE])  # fmt: skip
 HERD.add("bounds-one-too-wide", "A channel mask of 100h is acknowledged.", acknowledging(rb"\x01\x06\x01\xe9\x01\x00"), PLAIN,
          "map/write/channels-n1", allow=[WRITE])  # fmt: skip

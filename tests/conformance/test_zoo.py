@@ -1,0 +1,92 @@
+"""The zoo: each animal is caught by the checks that are named for it, and by few others; without its bug it passes."""
+
+import shlex
+import sys
+
+import pytest
+
+from i7000 import Protocol
+from i7000.conformance.verdict import SkipReason, Verdict
+from i7000.device import Eeprom
+from tests.conformance.zoo import zoo
+from tests.conformance.zoo.animal import Animal
+from tests.conformance.zoo.catch import Caught, caught_of, examined
+from tests.conformance.zoo.species import settings, signals_of
+from tests.conformance.zoo.table import PAGE, page, told
+from tests.each import each
+from tests.terminal import run
+
+ANIMALS = zoo()
+FEWEST = 40
+BASES = {(it.eeprom, it.allow) for it in ANIMALS.values() if not it.select}
+NOT_THERE = ("line/no-cable-dcon", "line/no-cable-rtu", "line/babbler-dcon", "line/babbler-rtu")
+
+
+@pytest.mark.parametrize("name", ANIMALS)
+def test_an_animal_fails_the_checks_that_the_page_of_the_zoo_says(name: str) -> None:
+    species = ANIMALS[name]
+    found = caught_of(species)
+    ids = set(found.ids)
+
+    assert set(species.caught) <= ids
+    assert len(ids - set(species.caught)) <= species.others
+    assert tuple(sorted(ids)) == told()[name]
+    assert name not in NOT_THERE or not passed(found)
+
+
+def passed(found: Caught) -> list[str]:
+    return [it.id for it in found.results if it.verdict is Verdict.PASS]
+
+
+def test_the_page_of_the_zoo_is_up_to_date() -> None:
+    assert page(ANIMALS, told()) == PAGE.read_text("utf-8")
+
+
+def test_there_are_enough_animals_in_both_protocols() -> None:
+    protocols = [it.eeprom.protocol for it in ANIMALS.values()]
+
+    assert len(ANIMALS) >= FEWEST
+    assert min(protocols.count(protocol) for protocol in Protocol) >= FEWEST / 2
+
+
+def undone(found: Caught) -> dict[str, tuple[Verdict, str]]:
+    """What neither passed, nor is open, nor does not concern the module, nor was not allowed from the first."""
+    return {
+        it.id: (it.verdict, it.text)
+        for it in found.results
+        if it.verdict not in (Verdict.PASS, Verdict.INFO)
+        and it.reason is not SkipReason.NOT_APPLICABLE
+        and not (it.reason is SkipReason.HAZARD and it.text.startswith("not allowed"))
+        and it.reason is not SkipReason.BUDGET
+    }
+
+
+@each("base", sorted(BASES, key=str))
+def test_a_module_without_a_bug_passes(base: tuple[Eeprom, tuple[object, ...]]) -> None:
+    eeprom, allow = base
+    found = examined(Animal(eeprom, signals_of(eeprom)), eeprom, *allow)  # type: ignore[arg-type] # hazards
+
+    assert not undone(found)
+    assert found.settled.is_as_before
+
+
+TARGET = f"exec:{shlex.quote(sys.executable)} -m tests.conformance.zoo "
+
+
+@each("name", ["dcon/answers-foreign-addresses", "dcon/channel-beyond-the-last"])
+def test_a_played_animal_is_caught_by_the_command(name: str) -> None:
+    ids = ANIMALS[name].caught
+    found = run("check", TARGET + name, *ids, "--address", "1", "--protocol", "dcon")
+
+    assert found.code == 1
+    assert all(it in found.out for it in ids)
+
+
+def test_a_module_without_a_bug_passes_the_command() -> None:
+    found = run("check", TARGET + "clean", "frame", "dcon/2.4/reply", "--address", "1", "--protocol", "dcon")
+
+    assert found.code == 0
+
+
+def test_a_name_that_no_animal_has_is_refused() -> None:
+    assert settings
