@@ -243,6 +243,18 @@ class OldAnswerRepeated(Animal):
 
 HERD.add("status-stuck", "The status of $AA4 is always 1.", saying(b"^>010", b">011"), PLAIN, "dcon/2.2/sampling",
          allow=[BROADCAST])  # fmt: skip
+
+
+@HERD.animal("samples-whatever-follows", PLAIN, "dcon/2.12/reply-n1", allow=[BROADCAST])
+class SamplesWhateverFollows(hearing(rb"^\$014..$", b"$014")):  # type: ignore[misc] # a class
+    """What follows $AA4 is ignored, and there is a sample from the first."""
+
+    def step(self, state: State, frame: bytes, now: float) -> tuple[State, bytes | None]:
+        if state.ram.sampled is None:
+            state, _ = Animal.step(self, state, b"#**\r", now)
+        return super().step(state, frame, now)
+
+
 HERD.add("configuration-without-filter", "The filter bit of the configuration is always 0.",
          answering(lambda heard, said: _masked(said, 7, 0x7F) if heard == b"$012" else said),
          PLAIN, "dcon/2.1/set", allow=[BROADCAST, COMM])  # fmt: skip
