@@ -4,9 +4,9 @@ import re
 
 from attrs import evolve
 
-from i7000 import BaudRate, DataFormat, DecodeError, Model, Protocol, TypeCode, dcon
+from i7000 import DataFormat, DecodeError, Model, Protocol, TypeCode, dcon
 from i7000.conformance.hazard import Hazard
-from i7000.device import Eeprom, State, power_on
+from i7000.device import Eeprom, State
 from tests.conformance.zoo.animal import Animal
 from tests.conformance.zoo.species import (
     Herd,

@@ -1,13 +1,10 @@
 """Firmware with bugs in Modbus RTU: CRC, units, functions, counts, exceptions, function 46h, registers, settings."""
 
-import re
 from collections.abc import Callable
-
-from attrs import evolve
 
 from i7000 import DecodeError, Model, Protocol, modbus
 from i7000.conformance.hazard import Hazard
-from i7000.device import Eeprom, State
+from i7000.device import State
 from tests.conformance.zoo.animal import Animal
 from tests.conformance.zoo.species import (
     Herd,
