@@ -12,6 +12,7 @@ from i7000.conformance import DEFAULT_ALLOWED, GuardError, Hazard, allowing
 from i7000.device import factory, power_on
 from i7000.host import Answered
 from i7000.link import BudgetError, GuardedPort, Line, LinkError, VirtualPort
+from i7000.link.port import power_cycle
 from i7000.link.process import ProcessPort
 
 PROFILE = Profile(Model.M_7019R)
@@ -80,6 +81,14 @@ def test_a_power_cycle_empties_the_line() -> None:
     guarded.power_cycle()
 
     assert guarded.write(b"0\r") == 2
+
+
+def test_a_line_switches_the_power_through_the_guard() -> None:
+    port = virtual()
+    guarded = GuardedPort(port)
+
+    assert power_cycle(guarded, init_switch=True)
+    assert port.init_switches == [True]
 
 
 def test_the_settings_of_the_port_are_those_of_the_guard() -> None:

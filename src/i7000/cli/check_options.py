@@ -16,7 +16,7 @@ from i7000.cli.report_files import KINDS
 from i7000.cli.words import UsageError
 from i7000.conformance.claims import Claims
 from i7000.conformance.hazard import Hazard, allowing
-from i7000.conformance.run import Options, selected
+from i7000.conformance.run import Options, asked_for, selected
 from i7000.conformance.verdict import Verdict
 
 __all__ = ["Settings", "Wishes", "allowed_of", "settings_of"]
@@ -60,6 +60,9 @@ class Settings:
     """What the options mean."""
 
     ids: frozenset[str]
+    """The checks that were selected, and those that they need."""
+    asked: frozenset[str]
+    """The checks that were selected."""
     options: Options
     reports: tuple[tuple[str, str], ...]
     baseline: Mapping[str, Verdict]
@@ -75,6 +78,7 @@ def settings_of(wishes: Wishes) -> Settings:
         raise UsageError("--certify checks everything: leave out the selection and --baseline")
     try:
         ids = selected(spec.statements(), wishes.select)
+        asked = asked_for(spec.statements(), wishes.select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     low, high = _SCALES
@@ -99,7 +103,7 @@ def settings_of(wishes: Wishes) -> Settings:
     baseline: Mapping[str, Verdict] = {}
     if wishes.baseline is not None:
         baseline = read_baseline(wishes.baseline, update=wishes.baseline_update)
-    return Settings(ids, options, _reports(wishes.reports), baseline)
+    return Settings(ids, asked, options, _reports(wishes.reports), baseline)
 
 
 def _claims(wishes: Wishes) -> Claims | None:

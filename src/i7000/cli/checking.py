@@ -167,7 +167,7 @@ class _Checking:
         left = self._left(one, settled)
         if failure is not None:
             return self._failed(one, settled, left, failure)
-        code = left or ended or self._code(one)
+        code = left or ended or self._code(one, settled)
         self._stream.finish(end_record(one, settled, exit_code=code, complete=not ended))
         self._screen.summary(one, settled)
         self._what_is_left(settled, left)
@@ -177,11 +177,13 @@ class _Checking:
             self._screen.word(code)
         return self._written(code)
 
-    def _code(self, one: Run) -> int:
+    def _code(self, one: Run, settled: Settled | None) -> int:
         """Return the exit code of what became of the checks, and update the baseline."""
         wishes, baseline = self._wishes, self._settings.baseline
         known = known_failures(one.results, baseline)
-        code = exit_code(one.results, strict=wishes.strict, known=known)
+        code = exit_code(one.results, strict=wishes.strict, known=known, asked=self._settings.asked)
+        if settled is not None and settled.restored and code == 0:
+            code = 1  # the checks put back what they change
         if wishes.certify and code == 0 and not all(map(_is_decided, one.results)):
             return _NOTHING
         if wishes.baseline_update and wishes.baseline is not None and code in (0, 1):

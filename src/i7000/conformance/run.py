@@ -31,7 +31,7 @@ from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snap
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
-__all__ = ["Begun", "CheckResult", "Options", "Planned", "Run", "exit_code", "plan", "selected", "worst"]
+__all__ = ["Begun", "CheckResult", "Options", "Planned", "Run", "asked_for", "exit_code", "plan", "selected", "worst"]
 
 _MOST_REPEATS = 2
 """How often a check that only reads is repeated when it does not pass."""
@@ -108,6 +108,14 @@ def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> f
     >>> sorted(selected(spec.statements(), ["link"]))[0]
     'link/alive'
     """
+    return frozenset(_completed(set(asked_for(known, selection)), known))
+
+
+def asked_for(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> frozenset[str]:
+    """Return the ids that texts name, without what those need.
+
+    Errors: as for `selected`.
+    """
     texts = tuple(selection)
     found = set() if texts else set(known)
     for text in texts:
@@ -117,7 +125,7 @@ def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> f
             allowed = "the id of a check, a group, a pattern such as dcon/2.1*, or a section of the manual"
             raise InvalidValueError("select", text, f"{allowed}; near it: {near}" if near else allowed, "")
         found |= matching
-    return frozenset(_completed(found, known))
+    return frozenset(found)
 
 
 def _matches(statement: Statement, text: str) -> bool:
@@ -133,13 +141,21 @@ def _matches(statement: Statement, text: str) -> bool:
 def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
     """Add what is needed, and the negative halves."""
     left = list(found)
+    halves = _by_positive(known.values())
     while left:
         one = left.pop()
-        halves = [it.id for it in known.values() if it.positive == one]
-        for other in (*known[one].needs, *halves):
+        for other in (*known[one].needs, *(it.id for it in halves.get(one, ()))):
             if other not in found:
                 found.add(other)
                 left.append(other)
+    return found
+
+
+def _by_positive(statements: Iterable[Statement]) -> dict[str | None, list[Statement]]:
+    """Return the negative halves of checks, by the ids of those."""
+    found: dict[str | None, list[Statement]] = {}
+    for one in statements:
+        found.setdefault(one.positive, []).append(one)
     return found
 
 
@@ -185,11 +201,11 @@ def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: f
 
 def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
     """Yield each check with its negative halves after it."""
-    ids = {it.statement.id for it in planned}
+    by_id = {it.statement.id: it for it in planned}
+    halves = _by_positive(it.statement for it in planned)
     for one in planned:
-        if one.statement.positive in ids:
-            continue
-        yield [one, *(it for it in planned if it.statement.positive == one.statement.id)]
+        if one.statement.positive not in by_id:
+            yield [one, *(by_id[it.id] for it in halves.get(one.statement.id, ()))]
 
 
 class Run:
@@ -226,6 +242,8 @@ class Run:
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
         self._stopped: Skipped | None = None
+        self._answering = False
+        """Whether the module answered what was sent last."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
         self._verdicts: dict[str, Verdict] = {}
 
@@ -269,14 +287,19 @@ class Run:
         skip = one.skip or self._stopped or self._prerequisite(one.statement) or self._over()
         if skip:
             return CheckResult(one.statement, Verdict.SKIP, text=skip.text, reason=skip.reason)
-        result = yield from self._once(one.statement)
+        answering = self._answering
+        result = yield from self._once(one.statement, answering=answering)
         if result.verdict not in _REPEATED or not one.statement.hazards <= _READS:
             return result
         again: tuple[Verdict, ...] = ()
         while len(again) < _MOST_REPEATS:
-            again += ((yield from self._once(one.statement)).verdict,)
-        verdict = result.verdict if set(again) == {result.verdict} else Verdict.FLAKY
-        return evolve(result, verdict=verdict, repeats=again)
+            again += ((yield from self._once(one.statement, answering=answering)).verdict,)
+        if set(again) != {result.verdict}:
+            return evolve(result, verdict=Verdict.FLAKY, repeats=again)
+        if result.verdict is Verdict.INCONCLUSIVE and answering and self._answering:
+            text = f"{result.text}, each of {1 + len(again)} times, though it answers before and later"
+            return evolve(result, verdict=Verdict.FAIL, text=text, repeats=again)
+        return evolve(result, repeats=again)
 
     def _prerequisite(self, statement: Statement) -> Skipped | None:
         for needed in statement.needs:
@@ -292,8 +315,9 @@ class Run:
             return Skipped(SkipReason.BUDGET, f"the {limit:g} s of the run are over")
         return None
 
-    def _once(self, statement: Statement) -> Procedure[CheckResult]:
+    def _once(self, statement: Statement, *, answering: bool) -> Procedure[CheckResult]:
         subject = self._subject(Random(f"{self.options.seed} {statement.id}"))  # noqa: S311 - repeatable
+        subject.answering = answering
         budget = subject.writes_left
         self.may_have_changed |= bool(statement.hazards & _STORED)
         started = self.now
@@ -339,6 +363,7 @@ class Run:
             heard.append(answer)
             if isinstance(answer, BytesHeard):
                 self.now = answer.now
+                self._answering = bool(answer.wire)
 
     def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
         """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
@@ -416,15 +441,22 @@ def _result(statement: Statement, verdict: Verdict, reason: Reason | None, secon
 # --- the end ----------------------------------------------------------------------------------------------------------
 
 
-def exit_code(results: Iterable[CheckResult], *, strict: bool = False, known: Iterable[str] = ()) -> int:
-    """Return the exit code of results: 0, 1 for what failed, 5 if nothing was decided.
+def exit_code(
+    results: Iterable[CheckResult],
+    *,
+    strict: bool = False,
+    known: Iterable[str] = (),
+    asked: Iterable[str] | None = None,
+) -> int:
+    """Return the exit code of results: 0; 1 for what failed or stayed open beside others; 5 if nothing was decided.
 
-    Shape: `known` are the ids whose failure a baseline has.
+    Shape: `known` are the ids whose failure a baseline has. `asked` are those that the user selected: what they need
+        does not count as decided; None means all.
 
     >>> exit_code([])
     5
     """
-    baseline = frozenset(known)
+    baseline, wanted = frozenset(known), None if asked is None else frozenset(asked)
     bad = {Verdict.FAIL, Verdict.FLAKY, Verdict.PASS_GOOD_ONLY, *((Verdict.WARN,) if strict else ())}
     counted = Counter[str]()
     for result in results:
@@ -432,13 +464,17 @@ def exit_code(results: Iterable[CheckResult], *, strict: bool = False, known: It
             counted["bad"] += 1
         elif result.verdict is Verdict.ERROR:
             counted["error"] += 1
-        elif result.verdict not in (Verdict.SKIP, Verdict.INCONCLUSIVE):
+        elif result.verdict is Verdict.INCONCLUSIVE:
+            counted["open"] += 1
+        elif result.verdict is not Verdict.SKIP and (wanted is None or result.id in wanted):
             counted["decided"] += 1
     if counted["error"]:
         return 4
     if counted["bad"]:
         return 1
-    return 0 if counted["decided"] else 5
+    if not counted["decided"]:
+        return 5
+    return 1 if counted["open"] else 0
 
 
 _WORST_FIRST = (6, 4, 3, 2, 1, 5, 0)

@@ -1,11 +1,15 @@
 """The end of a run: the module as it was before, and the proof of it."""
 
+from i7000.conformance.guard import GuardError
 from i7000.conformance.oracle import Twin
 from i7000.frozen import frozen
 from i7000.host.procedures import PowerCycle, Procedure, Snapshot, Tune, diff, restore, snapshot
 from i7000.settings import LineSettings
 
 __all__ = ["Settled", "settle"]
+
+_OF_ITSELF = frozenset({"host_watchdog_enabled"})
+"""The settings that a module changes by itself: a host watchdog that times out is disabled then."""
 
 
 @frozen
@@ -44,18 +48,29 @@ def settle(
     if found is None:
         yield Tune(line)
         return Settled(silent=True)
-    changed = tuple(change.name for change in diff(found, before))
+    changed = _changed(found, before)
     if not changed or not writing:
         yield Tune(line)
         return Settled(left=changed)
     state = place.state
     wanted = [name for name in changed if name in before]
-    after = yield from restore(
-        state.ram.address, state.profile, before, wanted, protocol=state.ram.protocol, line=state.ram.line_settings
-    )
+    try:
+        after = yield from restore(
+            state.ram.address, state.profile, before, wanted, protocol=state.ram.protocol, line=state.ram.line_settings
+        )
+    except GuardError:
+        yield Tune(line)
+        return Settled(left=changed)
     yield Tune(after.line or line)
     again = yield from snapshot(after.address, after.profile, state.ram.protocol)
-    return Settled(changed, tuple(change.name for change in diff(again, before)), silent=not again.settings)
+    return Settled(changed, _changed(again, before), silent=not again.settings)
+
+
+def _changed(now: Snapshot, before: Snapshot) -> tuple[str, ...]:
+    """Return the settings that differ, apart from those that a module changes by itself."""
+    return tuple(
+        change.name for change in diff(now, before) if not (change.name in _OF_ITSELF and change.before is False)
+    )
 
 
 def _found(place: Twin) -> Procedure[Snapshot | None]:

@@ -36,6 +36,9 @@ _SILENCE = 0.3
 """The silence in seconds that ends every request by Modbus, also for the guard of the port."""
 _LINE_END = b"#\r"
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
+_MORE_TRIES = 2
+_PAUSE = 0.3
+"""How often a module that answers no more is looked for, and the pause in seconds before that."""
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
 
@@ -60,6 +63,8 @@ class Subject:
     """How many frames may still change the EEPROM; those that a module refuses are not counted."""
     claims: "Claims | None" = None
     """The statement of the module, if one was given."""
+    answering: bool = False
+    """Whether the module answered what was sent last before the check."""
 
     @property
     def protocol(self) -> Protocol:
@@ -146,7 +151,7 @@ class Subject:
         self.guard = self.guard.after_silence()
         if self.protocol is Protocol.MODBUS_RTU:
             self.guard = self.guard.sending(_LINE_END, self.line)
-            self.now = (yield SendBytes(((0.0, _LINE_END),), 0.0)).now
+            self.now = (yield SendBytes(((0.0, _LINE_END),), _SILENCE)).now
 
     def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
         for _, wire in parts:
@@ -268,17 +273,27 @@ class Subject:
     def alive(self, after: bytes) -> Procedure[None]:
         """Send the sentinel, whose answer must be right: else nothing can be said about the frame before it.
 
-        Errors: `Unclear` if it is not answered, `Difference` for another answer.
+        Errors: `Unclear` if it is not answered; `Difference` for another answer, and if the module answered when the
+            check began, and does not answer any more.
         """
         wire = self.wire(self.sentinel)
         answer = self.hear(wire)
         heard = (yield from self.send(wire)).wire
         if not heard:
-            raise Unclear("the module does not answer a plain read after it", sent=after + wire)
+            yield from self._lost(after + wire)
         if heard != answer.wire:
             text = "the next request has another answer"
             expected = f"silence, then {_words(answer.wire or b'')}"
             raise self.wrong(text, after + wire, heard, expected, answer.wire or b"")
+
+    def _lost(self, sent: bytes) -> Procedure[None]:
+        """Look for the module again, and raise what its silence means: it answered before the check, if it did."""
+        wire = self.wire(self.sentinel)
+        for _ in range(_MORE_TRIES):
+            yield from self.wait(_PAUSE)
+            if not self.answering or (yield from self.send(wire)).wire:
+                raise Unclear("the module does not answer a plain read after it", sent=sent)
+        raise self.wrong("the module does not answer any more", sent, b"", "an answer to a plain read after it")
 
     def wrong(self, text: str, sent: bytes, received: bytes, expected: str, right: bytes = b"") -> Difference:
         """Return the error of an answer that is not allowed; `right` are the only bytes that are, if there are such."""

@@ -6,13 +6,17 @@ Laws: without a bug it is the device model. `Animal` knows no clock and no I/O.
 from __future__ import annotations
 
 from collections import deque
-from typing import Any
+from collections.abc import Callable
+from functools import partial
+from math import inf
 
-from i7000 import LineSettings, Noise, Protocol, dcon, modbus
-from i7000.device import Eeprom, Signals, State, power_on, step
+from i7000 import Noise, Protocol, dcon, modbus
+from i7000.device import Eeprom, Signals, State, Uart, power_on, step
 
 SILENCE = 3.5
 """The characters of silence that end a frame of Modbus RTU."""
+_LISTEN = 0.02
+"""The seconds without bytes that are such a silence where there is no line: a pipe has no baud rate."""
 
 
 class Animal:
@@ -38,6 +42,17 @@ class Animal:
         """Return what is sent in place of the right answer."""
         del frame
         return answer
+
+    def delay(self) -> float:
+        """Return how many seconds after a frame its answer begins."""
+        return self.state.response_delay
+
+    period: float | None = None
+    """The seconds between bytes that nobody asked for; None without such bytes."""
+
+    def unasked(self) -> bytes:
+        """Return bytes that nobody asked for."""
+        return b""
 
     def stored(self, eeprom: Eeprom) -> Eeprom:
         """Return what the EEPROM holds after the power was off."""
@@ -81,7 +96,7 @@ class Animal:
 
 
 class AnimalPort:
-    """A port with firmware at its other end, in virtual time; it has no line settings, as a pipe has none."""
+    """A port with firmware at its other end, in virtual time; with other line settings nothing is heard."""
 
     def __init__(self, animal: Animal) -> None:
         self.animal = animal
@@ -92,6 +107,13 @@ class AnimalPort:
         self._sent: deque[tuple[float, bytes]] = deque()
         self._coming: deque[tuple[float, bytes]] = deque()
         self._silent_at: float | None = None
+        self._unasked_at = animal.period
+
+    @property
+    def _is_tuned(self) -> bool:
+        """Whether both ends have the same line settings."""
+        uart = Uart.of(self.animal.state.ram.line_settings)
+        return (self.baudrate, self.parity, self.stopbits) == (uart.rate, uart.parity, uart.stop_bits)
 
     @property
     def _character(self) -> float:
@@ -114,6 +136,8 @@ class AnimalPort:
 
     def read(self, size: int = 1, /) -> bytes:
         """Return bytes, or none after the timeout."""
+        if not size:
+            return b""
         end = self._now + (self.timeout or 0.0)
         self._live(end)
         if not self._coming or self._coming[0][0] > end:
@@ -128,21 +152,31 @@ class AnimalPort:
     def _live(self, end: float) -> None:
         """Let the firmware hear what it hears until a time."""
         while True:
-            sent = self._sent[0][0] if self._sent else None
-            begins = sent - len(self._sent[0][1]) * self._character if sent is not None else None
-            if self._silent_at is not None and self._silent_at <= end and (begins is None or begins >= self._silent_at):
-                at, self._silent_at = self._silent_at, None
-                self._send(self.animal.silence(at), at)
-            elif sent is not None and sent <= end:
-                at, data = self._sent.popleft()
-                self._silent_at = at + SILENCE * self._character
-                self._send(self.animal.hear(data, at), at)
-            else:
+            sent = self._sent[0] if self._sent else None
+            begins = inf if sent is None else sent[0] - len(sent[1]) * self._character
+            times = (self._silent_at or inf, inf if sent is None else sent[0], self._unasked_at or inf)
+            if min(times) > end:
                 return
+            if times[2] == min(times) and self.animal.period:
+                self._unasked_at = times[2] + self.animal.period
+                self._send(self.animal.unasked(), times[2])
+            elif times[0] < inf and times[0] <= begins + 1e-9:
+                self._silent_at = None
+                self._hear(self.animal.silence, times[0])
+            elif sent is not None:
+                self._sent.popleft()
+                self._silent_at = sent[0] + SILENCE * self._character
+                self._hear(partial(self.animal.hear, sent[1]), sent[0])
+
+    def _hear(self, heard: Callable[[float], bytes], at: float) -> None:
+        if self._is_tuned:
+            delay = self.animal.delay()
+            self._send(heard(at), at + delay)
 
     def _send(self, data: bytes, at: float) -> None:
+        start = max(at, self._coming[-1][0] if self._coming else at)
         for place in range(len(data)):
-            self._coming.append((at + (place + 1) * self._character, data[place : place + 1]))
+            self._coming.append((start + (place + 1) * self._character, data[place : place + 1]))
 
     def power_cycle(self, *, init_switch: bool = False) -> None:
         """Switch the power of the firmware off and on."""
@@ -156,17 +190,21 @@ class AnimalPort:
         """Do nothing."""
 
 
-def line_of(animal: Animal) -> LineSettings:
-    """The line settings of a module now."""
-    return animal.state.ram.line_settings
-
-
-def serve(animal: Animal, read: Any, write: Any, clock: Any) -> None:
+def serve(
+    animal: Animal,
+    read: Callable[[float], bytes | None],
+    write: Callable[[bytes], None],
+    clock: Callable[[], float],
+    sleep: Callable[[float], None],
+) -> None:
     """Play firmware until its input ends: `read(seconds)` returns bytes, None for silence, and b"" at the end."""
-    while True:
-        data = read(0.02)
-        if data == b"":
-            return
+    spoken = clock()
+    while (data := read(_LISTEN)) != b"":
+        delay = animal.delay()
         answer = animal.silence(clock()) if data is None else animal.hear(data, clock())
         if answer:
+            sleep(delay)
             write(answer)
+        if animal.period and clock() - spoken >= animal.period:
+            spoken = clock()
+            write(animal.unasked())

@@ -15,6 +15,7 @@ from i7000.host.procedures import snapshot
 from i7000.link import Line
 from i7000.link.guarded import GuardedPort
 from tests.conformance.zoo.animal import Animal, AnimalPort
+from tests.conformance.zoo.species import Species
 
 BAD = frozenset({Verdict.FAIL, Verdict.FLAKY, Verdict.WARN, Verdict.PASS_GOOD_ONLY, Verdict.ERROR})
 
@@ -48,3 +49,8 @@ def examined(animal: Animal, eeprom: Eeprom, *allow: Hazard, select: tuple[str, 
         line.run(one.procedure())
         settled = line.run(settle(taken, one.place, one.line))
     return Caught(tuple(one.results), settled)
+
+
+def caught_of(species: Species) -> Caught:
+    """What a run says about a species."""
+    return examined(species.born(), species.eeprom, *species.allow, select=species.select)

@@ -221,6 +221,7 @@ def address_changed(module: Subject, request: Callable[[int, int], modbus.Reques
         if not (yield from _is_there(module, new)):
             module.twin = Twin(module.twin.state.keep(address=before))
             yield from module.alive(wire)
+            yield from _stored(module, wire, new)
             later.append(f"{new:02X}")
         if found := difference(answer, heard):
             raise module.wrong(found, wire, heard, (answer.wire or b"").hex(" "))
@@ -228,6 +229,16 @@ def address_changed(module: Subject, request: Callable[[int, int], modbus.Reques
     yield from changed_and_restored(module, move(free), partial(move, own))
     if later:
         raise Note(f"the module keeps its address until the next power-on when it is given another: {later[0]}")
+
+
+def _stored(module: Subject, wire: bytes, new: int) -> Procedure[None]:
+    """Read the address of a module that keeps its own for now: the register has the new one, which holds later."""
+    row = row_of(module, Area.HOLDING_REGISTER, "module_address")
+    read = module.wire(READERS[row.area](module.address, row.address, row.count))
+    right = module.seal(bytes((module.address, 3, 2)) + new.to_bytes(2, "big"))
+    heard = (yield from module.send(read)).wire
+    if heard != right:
+        raise module.wrong("the new address is neither used nor stored", wire + read, heard, right.hex(" "))
 
 
 def _is_there(module: Subject, address: int) -> Procedure[bool]:

@@ -12,6 +12,7 @@ from typing import Any, get_args
 
 from attrs import evolve, fields, fields_dict
 
+from i7000.errors import InvalidValueError
 from i7000.frozen import frozen
 from i7000.modbus import registers as rows
 from i7000.modbus.cold_junction import FIRST_CHANNEL, offset_in_celsius
@@ -139,11 +140,19 @@ class InRegister:
         return self.registers.read(address, self.name)
 
     def value(self, response: Any) -> Any:  # noqa: ANN401 - of any setting
-        """Return the value in the response, in the unit of the row."""
+        """Return the value in the response, in the unit of the row.
+
+        Errors: `InvalidValueError` for a register with several settings whose value is undefined.
+        """
         held: Any = self.registers.decode(self.name, response.values)
         if self.channel is not None:
             return held[self.channel]
-        return getattr(held, self.part) if self.part else held
+        return getattr(self._defined(held), self.part) if self.part else held
+
+    def _defined(self, held: Any) -> Any:  # noqa: ANN401 - of any row
+        if not hasattr(held, self.part):
+            raise InvalidValueError(self.name, held, f"a value that has a {self.part.replace('_', ' ')}", "3.4")
+        return held
 
     def draft(self, address: int, response: Any) -> Any:  # noqa: ANN401, ARG002
         """Return what was read."""
@@ -151,7 +160,7 @@ class InRegister:
 
     def put(self, draft: Any, value: Any) -> Any:  # noqa: ANN401
         """Return a draft with the value changed."""
-        return evolve(draft, **{self.part: value}) if self.part else value
+        return evolve(self._defined(draft), **{self.part: value}) if self.part else value
 
     def command(self, address: int, draft: Any) -> Any:  # noqa: ANN401
         """Return the request that writes a draft.
