@@ -37,9 +37,10 @@ def lines(path: Path) -> list[Record]:
 
 def rewritten(path: Path, records: list[Record]) -> str:
     """Write other records, with a digest that is right."""
-    *before, end = [json.dumps(record) for record in records]
-    digest = sha256("".join(f"{line}\n" for line in before).encode()).hexdigest()
-    text = "\n".join([*before, json.dumps({**json.loads(end), "digest": digest})])
+    *before, end = records
+    end.pop("digest", None)
+    digest = sha256("".join(f"{json.dumps(record)}\n" for record in records).encode()).hexdigest()
+    text = "\n".join([*map(json.dumps, before), json.dumps({**end, "digest": digest})])
     path.write_text(text + "\n")
     return str(path)
 
@@ -50,6 +51,8 @@ def test_a_report_is_shown_and_verified(run: Run, report: Path) -> None:
     assert (told.code, told.err) == (0, "")
     assert told.out.splitlines()[0] == "I-7018 at sim:I-7018"
     assert told.out.splitlines()[1].startswith(f"FAIL           {LIES}  length at byte 5")
+    assert told.out.splitlines()[-1] == "verified"
+    assert "verified" not in run("report", str(report)).out
 
 
 def test_a_changed_report_is_noticed(run: Run, report: Path) -> None:
@@ -57,7 +60,40 @@ def test_a_changed_report_is_noticed(run: Run, report: Path) -> None:
     told = run("report", str(report), "--verify")
 
     assert (told.code, run("report", str(report)).code) == (1, 0)
+    assert told.err.splitlines() == [
+        "i7000: changed after it was written: the digest is that of other lines",
+        "i7000: changed after it was written: the counts at its end are not those of its checks",
+    ]
+    assert "verified" not in told.out
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ('"exit_code": 1', '"exit_code": 0'),
+        ('"writes": 0', '"writes": 1'),
+        ('"restored": []', '"restored": ["filter"]'),
+        ('"left_changed": []', '"left_changed": null'),
+        ('"}\n', '"} \n'),
+    ],
+)
+def test_a_changed_last_line_is_noticed(run: Run, report: Path, before: str, after: str) -> None:
+    *others, end = report.read_text().splitlines(keepends=True)
+    assert before in end
+    report.write_text("".join(others) + end.replace(before, after))
+    told = run("report", str(report), "--verify")
+
+    assert told.code == 1
     assert told.err == "i7000: changed after it was written: the digest is that of other lines\n"
+
+
+def test_counts_that_are_not_those_of_the_checks_are_noticed(run: Run, report: Path) -> None:
+    records = lines(report)
+    records[-1]["counts"]["PASS"] += 1
+    told = run("report", rewritten(report, records), "--verify")
+
+    assert told.code == 1
+    assert told.err == "i7000: changed after it was written: the counts at its end are not those of its checks\n"
 
 
 def test_a_report_without_its_end_is_incomplete(run: Run, report: Path) -> None:

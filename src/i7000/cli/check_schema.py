@@ -121,7 +121,7 @@ _END = _object(
         "left_changed": _or_null(_list(_TEXT), "The settings that differ from before; null: unknown."),
         "silent": _or_null(_FLAG, "Whether the module does not answer any more; null: unknown."),
         "exit_code": _COUNT,
-        "digest": _SHA256 | {"description": "Of all lines before, each with a line feed."},
+        "digest": _SHA256 | {"description": "SHA-256 of all lines, each with a line feed; of this one without ', \"digest\": ...'."},
     }
 )
 

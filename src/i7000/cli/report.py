@@ -24,8 +24,8 @@ def report(  # noqa: PLR0913 - each of them is an option
 ) -> int:
     """Show what a report of `i7000 check` says, and make other files of it.
 
-    The digest at the end of a report is that of all lines before it: `--verify` says whether it is still as it was
-    written.
+    The digest at the end of a report is that of all its lines, and the counts there are those of its checks: `--verify`
+    prints `verified` if both hold and the run came to its end.
 
     Example: `i7000 report run.jsonl --html module.html`
 
@@ -52,4 +52,6 @@ def report(  # noqa: PLR0913 - each of them is an option
     printer.lines([*shown, [(words, "bold")]] if words else shown)
     for problem in found.problems:
         printer.error(problem)
+    if verify and not found.problems:
+        printer.lines([[("verified", "bold")]])
     return 1 if verify and found.problems else 0

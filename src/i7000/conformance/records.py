@@ -1,7 +1,7 @@
 """The lines of a report: JSON objects from ``run-start`` to ``run-end``, with everything that a run was about.
 
-Laws: a report without its last line is incomplete, and says so wherever it is shown. The last line has the SHA-256 of
-all lines before it. Two runs that do the same differ in their times only.
+Laws: a report without its last line is incomplete, and says so wherever it is shown. The last line ends with the
+SHA-256 of all lines, itself without that digest included. Two runs that do the same differ in their times only.
 """
 
 import json
@@ -158,5 +158,6 @@ class Digest:
         return text
 
     def last(self, record: Mapping[str, Any]) -> str:
-        """Return the last record as a line with the digest of the lines before it."""
+        """Return the last record as a line, with the digest of all lines, and of this one without it."""
+        self.line(record)
         return as_line({**record, "digest": self._digest.hexdigest()})

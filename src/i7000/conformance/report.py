@@ -5,6 +5,8 @@ wrong with it otherwise is in `Report.problems`.
 """
 
 import json
+import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from itertools import groupby
@@ -22,6 +24,8 @@ from i7000.type_codes import TypeCode
 
 __all__ = ["Checked", "Frame", "Report", "ReportError", "read_report", "texts"]
 
+_DIGEST = re.compile(r', "digest": "([0-9a-f]{64})"}')
+"""The end of the last line."""
 _PROTOCOLS = {protocol.name.lower(): protocol for protocol in Protocol}
 
 
@@ -66,12 +70,17 @@ class Checked:
 
 @frozen
 class Report:
-    """A report: `start` and `end` are its first and last line; a report without an end is incomplete."""
+    """A report: `start` and `end` are its first and last line; a report without an end is incomplete.
+
+    Shape: `problems` are what is wrong with it, in words; `damage` are those of them that no run leaves behind: the
+        file was edited, or it is damaged.
+    """
 
     start: dict[str, Any]
     checks: tuple[Checked, ...]
     end: dict[str, Any] | None
     problems: tuple[str, ...]
+    damage: tuple[str, ...] = ()
 
     @property
     def is_complete(self) -> bool:
@@ -100,7 +109,8 @@ def read_report(lines: Iterable[str]) -> Report:
     for record in found.checks:
         listener, frames = _frames(listener, found.wires.get(record["id"], ()))
         checks.append(Checked(record["id"], str(record.get("verdict", Verdict.ERROR.value)), record, frames))
-    return Report(found.start, tuple(checks), found.end, (*found.problems, *found.missing()))
+    damage = (*found.problems, *found.edited())
+    return Report(found.start, tuple(checks), found.end, (*damage, *found.missing()), damage)
 
 
 class _Records:
@@ -112,6 +122,8 @@ class _Records:
         self.checks: list[dict[str, Any]] = []
         self.wires: dict[str, list[dict[str, Any]]] = {}
         self.problems: list[str] = []
+        self.is_as_written = False
+        """Whether the digest is that of the lines."""
         self._digest = sha256()
 
     def take(self, number: int, text: str) -> None:
@@ -126,11 +138,14 @@ class _Records:
         elif record is None:
             self.problems.append(f"line {number}: no JSON object")
         else:
-            self._sort(record)
+            self._sort(record, text)
         if self.end is None:
-            self._digest.update(text.encode("utf-8", "surrogatepass") + b"\n")
+            self._add(text)
 
-    def _sort(self, record: dict[str, Any]) -> None:
+    def _add(self, text: str) -> None:
+        self._digest.update(text.encode("utf-8", "surrogatepass") + b"\n")
+
+    def _sort(self, record: dict[str, Any], text: str) -> None:
         kind = record.get("record")
         if kind == "wire" and isinstance(record.get("check"), str):
             self.wires.setdefault(record["check"], []).append(record)
@@ -138,16 +153,26 @@ class _Records:
             self.checks.append(record)
         elif kind == "run-end":
             self.end = record
+            found = _DIGEST.search(text)
+            if found is not None and found.end() == len(text):
+                self._add(text[: found.start()] + "}")
+                self.is_as_written = found[1] == self._digest.hexdigest()
+
+    def edited(self) -> Iterator[str]:
+        """Yield why this is not the report that was written."""
+        if self.end is None:
+            return
+        if not self.is_as_written:
+            yield "changed after it was written: the digest is that of other lines"
+        if self.end.get("counts") != Counter(str(check.get("verdict")) for check in self.checks):
+            yield "changed after it was written: the counts at its end are not those of its checks"
 
     def missing(self) -> Iterator[str]:
-        """Yield what is wrong with the end."""
+        """Yield what of the run is missing."""
         if self.end is None:
             yield "INCOMPLETE: the last line is missing"
-            return
-        if self.end.get("complete") is not True:
+        elif self.end.get("complete") is not True:
             yield "INCOMPLETE: stopped before the end"
-        if self.end.get("digest") != self._digest.hexdigest():
-            yield "changed after it was written: the digest is that of other lines"
 
 
 def _object(text: str) -> dict[str, Any] | None:
