@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from i7000 import dcon, modbus
 from i7000.conformance.exports import junit, pytest_file, reproduction
 from i7000.conformance.html import page
-from i7000.conformance.replay import Replayed
+from i7000.conformance.replay import Readings
 from i7000.conformance.report import ReportError, read_report
 
 PARTS = ["Expr", "Import", "Import", "Import", "Import", "Import", "Assign", "Assign", "Assign", "FunctionDef"]
@@ -113,18 +114,65 @@ def test_the_command_that_repeats_a_check_has_all_options() -> None:
 
 
 @pytest.mark.parametrize(
-    ("recorded", "received", "same"),
+    ("sent", "recorded", "received", "same"),
     [
-        (b"!01\r", b"!01\r", True),
-        (b"!01\r", b"!02\r", False),
-        (b">+1.0\r", b">+2.0\r", True),
-        (b">+1.0\r", b">+2\r", False),
-        (b">+1.0\r", b"", False),
-        (b"", b"", True),
-        (b"\x01\x04\x02\x00\x01aa", b"\x01\x04\x02\x00\x02bb", True),
-        (b"\x01\x04\x02\x00\x01aa", b"\x01\x84\x02\x00\x02bb", False),
-        (b"\x01\x46\x02\x00\x01aa", b"\x01\x46\x02\x00\x02bb", False),
+        (b"#01\r", b">+1.0\r", b">-2.0\r", True),
+        (b"#013\r", b">+1.0\r", b">+10.\r", True),
+        (b"$01A\r", b">7FFF\r", b">0000\r", True),
+        (b"$014\r", b">010+1.0\r", b">011+2.0\r", True),
+        (b"$014\r", b">010+1.0\r", b">020+1.0\r", False),
+        (b"$013\r", b">+0025.0\r", b">+0026.1\r", True),
+        (b"~02\r\x00x#01\r", b">+1.0\r", b">+2.0\r", True),
+        (b"#01\r", b">+1.0\r", b">+2\r", False),
+        (b"#01\r", b">+1.0   \r", b">+1.0+1.\r", False),
+        (b"#01\r", b">+1.0\r", b"", False),
+        (b"#01\r", b">+1.0\r", b"!+1.0\r", False),
+        (b"#01\r", b">+1.0\r", b">X1.0\r", False),
+        (b"#01", b">+1.0\r", b">+2.0\r", False),
+        (b"01\r", b">+1.0\r", b">+2.0\r", False),
+        (b"$012\r", b">0506\r", b">0507\r", False),
+        (b"~012\r", b">+1.0\r", b">+2.0\r", False),
+        (b"", b">+1.0\r", b">+2.0\r", False),
     ],
 )
-def test_only_readings_may_differ_in_a_replay(recorded: bytes, received: bytes, *, same: bool) -> None:
-    assert Replayed("link/a", (b"",), recorded, received).is_same is same
+def test_only_readings_may_differ_in_a_replay(sent: bytes, recorded: bytes, received: bytes, *, same: bool) -> None:
+    readings = Readings.of(read_report([json.dumps({**START, "module": {"protocol": "dcon"}})]))
+
+    assert readings.are_alike(sent, recorded, received) is same
+
+
+def test_the_checksum_of_a_reading_may_differ_but_must_be_right() -> None:
+    readings = Readings.of(read_report([json.dumps({**START, "module": {"protocol": "dcon", "checksum": True}})]))
+    sent, one, other = (dcon.seal(body, checksum=True) for body in (b"#01", b">+1.0", b">+2.0"))
+
+    assert readings.are_alike(sent, one, other)
+    assert not readings.are_alike(sent, one, other[:-3] + one[-3:])
+
+
+@pytest.mark.parametrize(
+    ("request_body", "recorded", "received", "same"),
+    [
+        ("01 04 0000 0001", "01 04 02 0001", "01 04 02 0002", True),
+        ("01 03 0000 0002", "01 03 04 0001 0001", "01 03 04 0001 0002", True),
+        ("01 04 0080 0001", "01 04 02 0001", "01 04 02 0002", True),
+        ("01 04 0000 0001", "01 04 02 0001", "01 84 02", False),
+        ("01 04 0000 0001", "01 04 02 0001", "02 04 02 0001", False),
+        ("01 04 0000 0001", "01 04 02 0001", "01 04 04 0001 0001", False),
+        ("01 03 01E5 0001", "01 03 02 0001", "01 03 02 0002", False),
+        ("01 03 0007 0005", "01 03 0a 0001 0001 0001 0001 0001", "01 03 0a 0001 0001 0001 0001 0002", False),
+        ("01 01 0000 0001", "01 01 01 01", "01 01 01 00", False),
+        ("01 46 00 00 00 00", "01 46 00 00 00 00", "01 46 00 00 00 01", False),
+    ],
+)
+def test_only_registers_that_are_measured_may_differ(
+    request_body: str, recorded: str, received: str, *, same: bool
+) -> None:
+    module = {"protocol": "modbus_rtu", "model": "M-7018"}
+    readings = Readings.of(read_report([json.dumps({**START, "module": module})]))
+    sent, one, other = (modbus.seal(bytes.fromhex(text)) for text in (request_body, recorded, received))
+
+    assert readings.are_alike(b"\x01\x04" + sent, one, other) is same
+    assert not readings.are_alike(sent, one, other[:-1] + bytes((other[-1] ^ 1,)))
+    assert not Readings.of(read_report([json.dumps({**START, "module": {"protocol": "modbus_rtu"}})])).are_alike(
+        sent, one, other
+    )

@@ -1,42 +1,57 @@
 """A run once more: the frames of a report sent again, and their answers compared with those of the report.
 
-Laws: what was sent without an answer between has the pauses of the report. What a module measures may differ: the
-answers to reads of readings are compared by their length only.
+Laws: what was sent without an answer between has the pauses of the report. What a module measures may differ, and
+nothing else: the request decides whether that is what was asked for.
 """
 
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 
+from i7000 import dcon, modbus
 from i7000.conformance.report import Frame, Report
+from i7000.errors import DecodeError
 from i7000.frozen import frozen
 from i7000.host.procedures import BytesHeard, Procedure, SendBytes, Tell
+from i7000.modbus import Area, RegisterMap
+from i7000.models import Model
+from i7000.profile import Profile
 from i7000.settings import Protocol
 
-__all__ = ["Replayed", "replay"]
+__all__ = ["Readings", "Replayed", "replay"]
 
 _LISTEN = 0.5
 _QUIET = 0.05
 _BITS = 10
 """The bits of a character on the line, at least."""
 _LONGEST_PAUSE = 5.0
+_READS = re.compile(rb"#[0-9A-F]{2}[0-9A-F]?|\$[0-9A-F]{2}[A34]")
+"""The DCON commands that read what is measured: ``#AA``, ``#AAN``, ``$AAA``, ``$AA4`` and ``$AA3``."""
+_SYNCHRONIZED = b"4"
+_NUMBERS = bytes.maketrans(b"123456789ABCDEF.-", b"0000000000000000+")
+"""What makes all digits and points of a reading alike, and all signs."""
+_ROWS = frozenset({"analog_input", "temperature", "cjc_temperature"})
+"""The rows of the address maps that have what is measured."""
+_AREAS = {3: Area.HOLDING_REGISTER, 4: Area.INPUT_REGISTER}
+_REQUEST = 8
+"""The bytes of a request to read registers."""
+_HEAD = 3
+"""The bytes before the values: of Modbus the unit, the function and the byte count, of ``$AA4`` ``>AA``."""
 
 
 @frozen
 class Replayed:
     """What came of a check of a report, sent again.
 
-    Shape: `sent` are the frames of one exchange, `recorded` and `received` what was heard then and now.
+    Shape: `sent` are the frames of one exchange, `recorded` and `received` what was heard then and now. `is_same` is
+        whether the module answered as in the report, apart from the values of readings.
     """
 
     check: str
     sent: tuple[bytes, ...]
     recorded: bytes
     received: bytes
-
-    @property
-    def is_same(self) -> bool:
-        """Whether the module answered as in the report, apart from the values of readings."""
-        return self.recorded == self.received or _alike(self.recorded, self.received)
+    is_same: bool
 
 
 def replay(report: Report, *, timeout_scale: float = 1.0) -> Procedure[tuple[Replayed, ...]]:
@@ -44,12 +59,15 @@ def replay(report: Report, *, timeout_scale: float = 1.0) -> Procedure[tuple[Rep
     dcon_ends = b"\r" if report.module.get("protocol") == Protocol.DCON.name.lower() else b""
     baud = report.module.get("baud_rate")
     character = _BITS / baud if isinstance(baud, int) and baud > 0 else 0.0
+    readings = Readings.of(report)
     results = []
     for check in report.checks:
         for sent, recorded in _exchanges(check.frames):
             step = SendBytes(_pieces(sent, character), _LISTEN * timeout_scale, _QUIET * timeout_scale, dcon_ends)
             heard: BytesHeard = yield step
-            result = Replayed(check.id, tuple(frame.wire for frame in sent), recorded, heard.wire)
+            wires = tuple(frame.wire for frame in sent)
+            same = recorded == heard.wire or readings.are_alike(b"".join(wires), recorded, heard.wire)
+            result = Replayed(check.id, wires, recorded, heard.wire, same)
             yield Tell(result)
             results.append(result)
     return tuple(results)
@@ -79,8 +97,58 @@ def _exchanges(frames: Sequence[Frame]) -> list[tuple[tuple[Frame, ...], bytes]]
     return found
 
 
-def _alike(one: bytes, other: bytes) -> bool:
-    """Return whether two answers have readings, and the same length."""
-    if len(one) != len(other) or not one or one[:1] != other[:1]:
-        return False
-    return one[:1] == b">" or (one[1:2] in (b"\x03", b"\x04") and one[:3] == other[:3])
+@frozen
+class Readings:
+    """What a module measures, in its answers.
+
+    Shape: `checksum` is whether DCON frames have one; `registers` are the areas and addresses of what is measured.
+    """
+
+    protocol: Protocol
+    checksum: bool
+    registers: frozenset[tuple[Area, int]]
+
+    @classmethod
+    def of(cls, report: Report) -> "Readings":
+        """Return what the module of a report measures; nothing by Modbus for an unknown model."""
+        module = report.module
+        by_modbus = module.get("protocol") == Protocol.MODBUS_RTU.name.lower()
+        model = next((it for it in Model if it.value == module.get("model")), None)
+        rows = RegisterMap(Profile(model, type_codes=())) if by_modbus and model is not None else ()
+        places = {(row.area, row.address + at) for row in rows if row.name in _ROWS for at in range(row.count)}
+        protocol = Protocol.MODBUS_RTU if by_modbus else Protocol.DCON
+        return cls(protocol, module.get("checksum") is True, frozenset(places))
+
+    def are_alike(self, sent: bytes, one: bytes, other: bytes) -> bool:
+        """Return whether two answers to a read of what is measured differ in the values only.
+
+        Shape: `sent` is everything since the last answer; what was sent last is the request.
+        """
+        try:
+            if self.protocol is Protocol.MODBUS_RTU:
+                return self._registers_alike(sent, one, other)
+            return self._texts_alike(sent, one, other)
+        except DecodeError:
+            return False
+
+    def _registers_alike(self, sent: bytes, one: bytes, other: bytes) -> bool:
+        request = modbus.unseal(sent[-_REQUEST:])
+        area = _AREAS.get(request[1])
+        first, count = int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
+        if area is None or not all((area, first + at) in self.registers for at in range(count)):
+            return False
+        right = bytes((*request[:2], 2 * count))
+        return all(
+            len(body) == _HEAD + 2 * count and body[:_HEAD] == right for body in map(modbus.unseal, (one, other))
+        )
+
+    def _texts_alike(self, sent: bytes, one: bytes, other: bytes) -> bool:
+        line = sent.removesuffix(b"\r").rpartition(b"\r")[2]
+        start = max(map(line.rfind, (b"#", b"$", b"%", b"~", b"@", b"^")), default=0)
+        command = dcon.unseal(line[max(start, 0) :] + b"\r", checksum=self.checksum)
+        if _READS.fullmatch(command) is None or not sent.endswith(b"\r"):
+            return False
+        answers = [dcon.unseal(answer, checksum=self.checksum, leads=b">") for answer in (one, other)]
+        head = _HEAD if command[:1] == b"$" and command[3:] == _SYNCHRONIZED else 1
+        first, second = (answer[:head] + answer[head:].translate(_NUMBERS) for answer in answers)
+        return first == second
