@@ -404,6 +404,8 @@ def test_a_full_disk_while_the_report_is_written_does_not_end_the_run(run: Run) 
         (("--report", "json="), "--report json=: give KIND=FILE"),
         (("--report", "json=a", "--report", "html=./a"), "--report html=./a: another report has this file"),
         (("--report", "json=no-folder/a"), "no-folder/a: No such file or directory"),
+        (("--report", "json=a", "--report", "html=b/../a"), "another report has this file"),
+        (("--explain", "link/alife"), "i7000: there is no check 'link/alife': "),
         (("--explain", "link/alife"), "near it: link/alive"),
         (("--explain", "link"), "--explain link: give one id"),
         (("--list", "nothing"), "a section of the manual"),

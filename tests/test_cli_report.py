@@ -178,6 +178,51 @@ def test_junit_of_an_incomplete_report_has_an_error(run: Run, report: Path, tmp_
     assert error.get("message") == "INCOMPLETE: stopped before the end"
 
 
+def test_junit_skips_a_known_failure(
+    run: Run, played: Play, report: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    played(FirmwarePort(lying))
+    baseline = ("--baseline", "known.json")
+    assert run("check", SIM, LIES, *baseline, "--baseline-update", "--report", "junit=first.xml").code == 0
+    played(FirmwarePort(lying))
+    assert run("check", SIM, LIES, *baseline, "--report", "junit=out.xml", "--report", f"json={report}").code == 0
+    root = parsed(tmp_path / "out.xml")
+    assert run("report", str(report), "--junit", "again.xml").code == 0
+
+    assert [it.get("message") for it in root.iter("skipped")] == ["known failure"]
+    assert [
+        suite.get("failures") for suite in root.iter("testsuite") if suite.find("testcase/skipped") is not None
+    ] == ["0"]
+    assert next(parsed(tmp_path / "first.xml").iter("failure")).get("type") == "FAIL"
+    assert (tmp_path / "again.xml").read_text() == (tmp_path / "out.xml").read_text()
+
+
+@pytest.mark.parametrize(("strict", "kinds"), [(True, ["failure"]), (False, [])])
+def test_junit_of_a_strict_run_lets_warnings_fail(
+    run: Run, report: Path, tmp_path: Path, *, strict: bool, kinds: list[str]
+) -> None:
+    records = lines(report)
+    checks = [record for record in records if record["record"] == "check" and record["verdict"] == "FAIL"]
+    records = [records[0], {**checks[0], "verdict": "WARN"}, {**records[-1], "counts": {"WARN": 1}}]
+    records[0]["strict"] = strict
+    run("report", rewritten(report, records), "--junit", str(tmp_path / "out.xml"))
+    (case,) = parsed(tmp_path / "out.xml").iter("testcase")
+
+    assert [it.tag for it in case] == kinds
+
+
+@pytest.mark.parametrize("options", [("--html", "run.jsonl"), ("--html", "a", "--junit", "./a")])
+def test_one_file_for_two_reports_is_refused(
+    run: Run, report: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(report.parent)
+    before = report.read_text()
+    told = run("report", "run.jsonl", *options)
+
+    assert (told.code, "has this file" in told.err, report.read_text() == before) == (2, True, True)
+
+
 # --- pytest -----------------------------------------------------------------------------------------------------------
 
 

@@ -155,7 +155,7 @@ def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
         kind, equals, file = text.partition("=")
         if kind not in KINDS or not equals or not file:
             raise UsageError(f"--report {text}: give KIND=FILE; kinds are {', '.join(KINDS)}")
-        if any(Path(file).absolute() == Path(other).absolute() for _, other in found):
+        if any(Path(file).resolve() == Path(other).resolve() for _, other in found):
             raise UsageError(f"--report {text}: another report has this file")
         with Path(file).open("a", encoding="utf-8"):
             pass

@@ -70,6 +70,7 @@ _START = _object(
         "target": _TEXT,
         "given_model": _or_null(_TEXT, "The model, if --model says it."),
         "echo": _FLAG | {"description": "Whether the adapter echoes what is sent."},
+        "strict": _FLAG | {"description": "Whether WARN fails."},
         "seed": {"type": "integer"},
         "timeout_scale": {"type": "number", "exclusiveMinimum": 0},
         "eeprom_writes": _COUNT | {"description": "The most frames that may change the EEPROM."},
@@ -110,6 +111,7 @@ _CHECK = _object(
     right=_WIRE | {"description": "The only bytes that were allowed, if there are such."},
     repeats=_list(_VERDICT, description="The verdicts of the repetitions."),
     writes=_COUNT | {"description": "The frames that may have changed the EEPROM."},
+    known={"const": True, "description": "Only of a failure that the baseline has."},
 )
 _END = _object(
     {
@@ -121,7 +123,7 @@ _END = _object(
         "left_changed": _or_null(_list(_TEXT), "The settings that differ from before; null: unknown."),
         "silent": _or_null(_FLAG, "Whether the module does not answer any more; null: unknown."),
         "exit_code": _COUNT,
-        "digest": _SHA256 | {"description": "SHA-256 of all lines, each with a line feed; of this one without ', \"digest\": ...'."},
+        "digest": _SHA256 | {"description": "Of all lines, each with a line feed, and of this one without its digest."},
     }
 )
 

@@ -146,6 +146,7 @@ class _Checking:
                 checksum=there.profile.checksum,
                 echo=self._asked.echo,
                 given_model=None if given is None else given.value,
+                strict=self._wishes.strict,
             )
         )
 
@@ -226,7 +227,8 @@ class _Checking:
             self._stream.check = told.statement.id
             self._screen.begin(told)
         elif isinstance(told, CheckResult):
-            self._stream.record(check_record(told))
+            known = bool(known_failures([told], self._settings.baseline))
+            self._stream.record(check_record(told, known=known))
             self._screen.show(told)
 
     # --- the module afterwards ------------------------------------------------------------------------------------

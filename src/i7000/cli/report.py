@@ -1,5 +1,6 @@
 """``i7000 report``: a report of ``i7000 check`` shown, verified, and made into other files."""
 
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -41,9 +42,15 @@ def report(  # noqa: PLR0913 - each of them is an option
         found = read_report(lines)
     except (ReportError, ValueError) as error:
         raise UsageError(f"{run}: {error}") from None
-    for kind, path in (("html", html), ("junit", junit), ("pytest", pytest), ("pcap", pcap)):
-        if path is not None:
-            write_report(lines, kind, path)
+    files = {"html": html, "junit": junit, "pytest": pytest, "pcap": pcap}
+    made = [(kind, path) for kind, path in files.items() if path is not None]
+    taken = [Path(run).resolve()]
+    for kind, path in made:
+        if Path(path).resolve() in taken:
+            raise UsageError(f"--{kind} {path}: {run if len(taken) == 1 else 'another report'} has this file")
+        taken.append(Path(path).resolve())
+    for kind, path in made:
+        write_report(lines, kind, path)
     shown: list[Line] = [[(f"{found.module.get('model')} at {found.start.get('target')}", "bold")]]
     shown += [[(f"{check.verdict:14}", ""), (f" {check.id}  ", "cyan"), (str(check["text"]), "")] for check in
               found.checks if check["text"] and check["reason"] is None]  # fmt: skip

@@ -54,15 +54,16 @@ def reproduction(report: Report, check_id: str) -> str:
 def junit(report: Report) -> str:
     """Return the report as XML for JUnit: a suite for each group, a case for each check.
 
-    Special: what no CI server knows, INFO and INCONCLUSIVE, is skipped there, with its text. A report that is
-        incomplete, or was changed, has a case of its own that says so.
+    Special: what no CI server knows, INFO and INCONCLUSIVE, is skipped there, with its text, and so is a failure that
+        the baseline of the run has. WARN fails if the run was strict. A report that is incomplete, or was changed, has
+        a case of its own that says so.
     """
     suites = ET.Element("testsuites", name="i7000")
     by_group: dict[str, list[Checked]] = {}
     for check in report.checks:
         by_group.setdefault(check.id.partition("/")[0], []).append(check)
     for group, checks in by_group.items():
-        suite = ET.SubElement(suites, "testsuite", {"name": _printable(f"i7000.{group}"), **_counts(checks)})
+        suite = ET.SubElement(suites, "testsuite", {"name": _printable(f"i7000.{group}"), **_counts(checks, report)})
         properties = ET.SubElement(suite, "properties")
         for name, value in _properties(report):
             ET.SubElement(properties, "property", name=name, value=_printable(value))
@@ -77,14 +78,19 @@ def junit(report: Report) -> str:
     return ET.tostring(suites, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def _counts(checks: list[Checked]) -> dict[str, str]:
-    verdicts = [check.verdict for check in checks]
-    return {
-        "tests": str(len(verdicts)),
-        "failures": str(sum(verdict in _FAILURES for verdict in verdicts)),
-        "errors": str(verdicts.count(Verdict.ERROR.value)),
-        "skipped": str(sum(verdict in _SKIPPED for verdict in verdicts)),
-    }
+def _counts(checks: list[Checked], report: Report) -> dict[str, str]:
+    kinds = [_kind(check, report) for check in checks]
+    names = {"failures": "failure", "errors": "error", "skipped": "skipped"}
+    return {"tests": str(len(kinds)), **{name: str(kinds.count(kind)) for name, kind in names.items()}}
+
+
+def _kind(check: Checked, report: Report) -> str | None:
+    """Return the element that says what became of a check; None if it passed."""
+    if check.verdict == Verdict.ERROR.value:
+        return "error"
+    if check.verdict in _FAILURES or (check.verdict == Verdict.WARN.value and report.start.get("strict") is True):
+        return "skipped" if check["known"] is True else "failure"
+    return "skipped" if check.verdict in _SKIPPED else None
 
 
 def _properties(report: Report) -> Iterator[tuple[str, str]]:
@@ -104,13 +110,14 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
         name=_printable(name),
         time=f"{seconds:.3f}" if isinstance(seconds, int | float) else "0",
     )
-    if check.verdict in _FAILURES or check.verdict == Verdict.ERROR.value:
-        kind = "error" if check.verdict == Verdict.ERROR.value else "failure"
+    kind = _kind(check, report)
+    if kind in ("error", "failure"):
         found = ET.SubElement(case, kind, type=check.verdict, message=_printable(str(check["text"])))
         found.text = _printable("\n".join(_words(check, report)))
-    elif check.verdict in _SKIPPED:
+    elif kind == "skipped":
         reason = check["reason"] or check.verdict
-        ET.SubElement(case, "skipped", message=_printable(f"{reason}: {check['text']}"))
+        message = f"{reason}: {check['text']}" if check.verdict in _SKIPPED else "known failure"
+        ET.SubElement(case, "skipped", message=_printable(message))
 
 
 def _words(check: Checked, report: Report) -> Iterator[str]:

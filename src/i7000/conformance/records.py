@@ -52,6 +52,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
     checksum: bool,
     echo: bool = False,
     given_model: str | None = None,
+    strict: bool = False,
 ) -> Record:
     """Return the first line; `given_model` is the model that the user says it is, instead of the module."""
     return {
@@ -64,6 +65,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "target": target,
         "given_model": given_model,
         "echo": echo,
+        "strict": strict,
         "seed": options.seed,
         "timeout_scale": options.timeout_scale,
         "eeprom_writes": options.writes,
@@ -92,8 +94,8 @@ def wire_record(check: str | None, seconds: float, data: bytes, *, sent: bool) -
     }
 
 
-def check_record(result: CheckResult) -> Record:
-    """Return the line of a check."""
+def check_record(result: CheckResult, *, known: bool = False) -> Record:
+    """Return the line of a check; `known` is whether the baseline has its failure."""
     statement = result.statement
     record: Record = {
         "record": "check",
@@ -121,6 +123,8 @@ def check_record(result: CheckResult) -> Record:
         record["repeats"] = [verdict.value for verdict in result.repeats]
     if result.writes:
         record["writes"] = result.writes
+    if known:
+        record["known"] = True
     return record
 
 

@@ -123,7 +123,8 @@ def asked_for(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> 
         if not matching:
             near = ", ".join(get_close_matches(text, known, n=3, cutoff=0.4))
             allowed = "the id of a check, a group, a pattern such as dcon/2.1*, or a section of the manual"
-            raise InvalidValueError("select", text, f"{allowed}; near it: {near}" if near else allowed, "")
+            allowed = f"{allowed}; near it: {near}" if near else allowed
+            raise InvalidValueError("select", text, allowed, "", f"there is no check {text!r}")
         found |= matching
     return frozenset(found)
 
