@@ -25,8 +25,10 @@ _OPTIONS = ("signals", "faults", "seed", "over")
 
 
 _BENCH = pytest.StashKey["Bench"]()
-_SKIPPED = "SKIP", "INCONCLUSIVE"
+_VERDICTS = pytest.StashKey["list[str]"]()
+"""The verdicts of the checks that were tests."""
 _PASSED = "PASS", "INFO"
+_UNDECIDED = "SKIP", "INCONCLUSIVE"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -35,7 +37,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--i7000-target",
         metavar="TARGET",
-        help="check the module at this port: a device, socket://HOST:PORT, sim:MODEL or exec:COMMAND",
+        help="check the module at this port: a device, socket://HOST:PORT, sim:MODEL or exec:COMMAND;"
+        " -k and --deselect select among the checks; with --collect-only, identity and settings are read, nothing more",
     )
     group.addoption("--i7000-address", metavar="ADDRESS", type=int, default=1, help="its address, 1 unless given")
     group.addoption("--i7000-model", metavar="MODEL", help="its model, such as M-7019R; read from it unless given")
@@ -47,14 +50,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         choices=["write", "broadcast"],
         help="also send what changes settings, which are restored (write), or what every module hears (broadcast)",
     )
+    group.addoption(
+        "--i7000-snapshot",
+        metavar="FILE",
+        help="the new file for the settings before the first check that changes any;"
+        " i7000-MODEL-ADDRESS-TIME.json in the root directory unless given",
+    )
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Add the checks of the module at ``--i7000-target``."""
+    """Add the checks of the module at ``--i7000-target``, before any are deselected."""
     target = config.getoption("--i7000-target")
     if target is None:
         return
     bench = config.stash[_BENCH] = _bench(target, config)
+    config.stash[_VERDICTS] = []
     checks = _Checks.from_parent(session, name=target, nodeid="i7000")
     applicable = [it for it in bench.planned if not (it.skip and it.skip.reason.value == "not-applicable")]
     items += [_Check.from_parent(checks, name=it.statement.id) for it in applicable]
@@ -70,9 +81,16 @@ def _bench(target: str, config: pytest.Config) -> Bench:
     models = {model.value: model for model in Model}
     if name is not None and name not in models:
         raise pytest.UsageError(f"--i7000-model {name}: give one of {', '.join(models)}")
-    allow = [Hazard(text) for text in config.getoption("--i7000-allow")]
+    allow = () if config.getoption("--collect-only") else map(Hazard, config.getoption("--i7000-allow"))
+    address, file = config.getoption("--i7000-address"), config.getoption("--i7000-snapshot")
     try:
-        return Bench(target, address=config.getoption("--i7000-address"), model=models.get(name), allow=allow)
+        return Bench(
+            target,
+            address=address,
+            model=models.get(name),
+            allow=allow,
+            snapshot=config.rootpath if file is None else file,
+        )
     except I7000Error as error:
         raise pytest.UsageError(f"--i7000-target: {error}") from None
 
@@ -96,7 +114,8 @@ class _Check(pytest.Item):
         """Carry out the check."""
         result = self.config.stash[_BENCH].result(self.name)
         verdict = result.verdict.value
-        if verdict in _SKIPPED:
+        self.config.stash[_VERDICTS].append(verdict)
+        if verdict == "SKIP":
             pytest.skip(f"{verdict}: {result.text}")
         if verdict == "WARN":
             self.warn(pytest.PytestWarning(f"{self.name}: {result.text}"))
@@ -132,16 +151,20 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
     passed = sum(it.verdict.value == "PASS" for it in bench.results)
     terminalreporter.section(f"i7000: {bench.model.value}")
     terminalreporter.write_line(f"{passed} of {len(bench.results)} checks passed; they prove {len(proved)} sections")
+    if bench.kept is not None:
+        terminalreporter.write_line(f"the settings of before are in {bench.kept}")
     for words in config.stash.get(_LEFT, ()):
         terminalreporter.write_line(words, red=True)
 
 
 _LEFT = pytest.StashKey["tuple[str, ...]"]()
 _LEFT_CHANGED = 6
+_DONE = pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED
+_NOTHING = pytest.ExitCode.NO_TESTS_COLLECTED
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Restore the module, and close the port."""
+    """Restore the module, and close the port; change the exit code if nothing was decided, or something left."""
     from i7000 import I7000Error  # noqa: PLC0415 - see above
 
     bench = session.config.stash.get(_BENCH, None)
@@ -156,6 +179,10 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         left = (f"the module was left changed: {', '.join(settled.left)}",) if settled.left else ()
         words = (*silent, *left)
     session.config.stash[_LEFT] = words
+    verdicts = session.config.stash[_VERDICTS]
+    undecided = verdicts and all(verdict in _UNDECIDED for verdict in verdicts)
+    if undecided and session.exitstatus in _DONE and session.testsfailed == verdicts.count("INCONCLUSIVE"):
+        session.exitstatus = _NOTHING
     if words:
         session.exitstatus = _LEFT_CHANGED
 

@@ -1,6 +1,7 @@
 """The pytest plugin: fixtures with simulated modules, as the tests of a driver use them."""
 
 import importlib
+import json
 import re
 import subprocess
 import sys
@@ -12,8 +13,10 @@ import pytest
 import serial
 
 import _i7000_pytest
-from i7000 import Model, Profile, TypeCode, dcon
+from i7000 import Model, Profile, TypeCode, dcon, spec
+from i7000.conformance.run import CheckResult
 from i7000.conformance.settle import Settled
+from i7000.conformance.verdict import Verdict
 from i7000.device import factory, power_on
 from i7000.host import Answered
 from i7000.link import Line, VirtualPort
@@ -164,10 +167,94 @@ def test_a_check_that_a_module_does_not_pass_shows_the_bytes(
     port = Longer([power_on(factory(Model.I_7018), now=0.0)])
     monkeypatch.setattr("i7000.link.bench.open_target", lambda *_: port)
 
-    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "--i7000-model", "I-7018", "-k", "stateful")
+    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "--i7000-model", "I-7018", "-k", "dcon/2.10")
 
     result.stdout.fnmatch_lines(["required *", "sent * 24 30 31 32 0d", "received *30 0d"])
     assert result.ret == 1
+
+
+SIM = ("-p", "no:xdist", "--i7000-target", "sim:I-7018")
+
+
+@pytest.mark.parametrize(
+    ("options", "names"),
+    [
+        (("-k", "link/alive"), {"link/alive"}),
+        (("-k", "alive or echo", "--deselect", "i7000::link/alive"), {"link/no-echo"}),
+        (("-m", "nothing"), set()),
+    ],
+)
+def test_checks_are_selected_as_tests_are(
+    check: Callable[..., pytest.RunResult], options: tuple[str, ...], names: set[str]
+) -> None:
+    result = check(*SIM, *options, "--collect-only", "-q")
+    found = {line.partition("::")[2] for line in result.outlines if line.startswith("i7000::")}
+
+    assert found == names
+
+
+def test_collecting_sends_nothing_but_reads(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch, pytester: pytest.Pytester
+) -> None:
+    port = Longer([power_on(factory(Model.I_7018), now=0.0)])
+    monkeypatch.setattr("i7000.link.bench.open_target", lambda *_: port)
+    monkeypatch.setattr("i7000.link.bench.settle", lambda *_: pytest.fail("it was restored"))
+    result = check(*SIM, "--i7000-model", "I-7018", "--i7000-allow", "write", "--collect-only")
+
+    assert result.ret == 0
+    assert not list(pytester.path.glob("i7000-*.json"))
+
+
+@pytest.mark.parametrize(
+    ("options", "name"), [((), "i7000-I-7018-01-*Z.json"), (("--i7000-snapshot", "my.json"), "my.json")]
+)
+def test_the_settings_are_in_a_file_before_a_check_changes_any(
+    check: Callable[..., pytest.RunResult], pytester: pytest.Pytester, options: tuple[str, ...], name: str
+) -> None:
+    result = check(*SIM, "--i7000-allow", "write", "-k", "dcon/2.33/set", *options)
+    (file,) = pytester.path.glob(name)
+
+    assert json.loads(file.read_text(encoding="ascii"))["model"] == "I-7018"
+    result.stdout.fnmatch_lines([f"the settings of before are in *{name}"])
+    assert result.ret == 0
+
+
+def test_reads_need_no_file(check: Callable[..., pytest.RunResult], pytester: pytest.Pytester) -> None:
+    check(*SIM, "--i7000-allow", "write", "-k", "link/alive")
+
+    assert not list(pytester.path.glob("i7000-*.json"))
+
+
+def test_a_file_that_exists_is_refused(check: Callable[..., pytest.RunResult], pytester: pytest.Pytester) -> None:
+    (pytester.path / "my.json").write_text("mine", encoding="ascii")
+    result = check(*SIM, "--i7000-allow", "write", "--i7000-snapshot", "my.json")
+
+    assert "my.json exists: give the name of a new file" in result.stderr.str() + result.stdout.str()
+    assert (pytester.path / "my.json").read_text(encoding="ascii") == "mine"
+
+
+def test_what_is_inconclusive_fails_and_decides_nothing(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    undecided = CheckResult(spec.statements()["link/alive"], Verdict.INCONCLUSIVE, text="nothing was received")
+    monkeypatch.setattr("i7000.link.bench.Bench.result", lambda *_: undecided)
+    result = check(*SIM, "-k", "link/alive")
+
+    assert result.parseoutcomes()["failed"] == 1
+    assert result.ret == 5
+
+
+def test_a_failure_beside_what_is_undecided_is_a_failure(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch, pytester: pytest.Pytester
+) -> None:
+    skipped = CheckResult(spec.statements()["link/alive"], Verdict.SKIP, text="not allowed")
+    monkeypatch.setattr("i7000.link.bench.Bench.result", lambda *_: skipped)
+    alone = check(*SIM, "-k", "link/alive")
+    pytester.makepyfile("def test_link_alive():\n    raise ValueError\n")
+    beside = check(*SIM, "-k", "link/alive or test_link_alive")
+
+    assert (alone.parseoutcomes(), alone.ret) == ({"skipped": 1, "deselected": alone.parseoutcomes()["deselected"]}, 5)
+    assert (beside.parseoutcomes()["failed"], beside.ret) == (1, 1)
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,13 @@
 """A module on a line that is checked one check at a time, as a test runner asks for them.
 
-Laws: the module is identified and its settings are read first; `close` restores it. Nothing is sent but through the
-guard.
+Laws: the module is identified and its settings are read first. Before the first check that may change a setting, they
+are in a file, if one is given; `close` restores them. Nothing is sent but through the guard.
 """
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
 
 from i7000 import spec
 from i7000.arguments import check_int, check_type
@@ -14,7 +17,8 @@ from i7000.conformance.run import CheckResult, Options, Planned, Run, plan
 from i7000.conformance.settle import Settled, settle
 from i7000.device import power_on
 from i7000.errors import I7000Error
-from i7000.host.procedures import identify, snapshot
+from i7000.host.procedures import Snapshot, identify
+from i7000.host.procedures import snapshot as read_settings
 from i7000.link.guarded import GuardedPort
 from i7000.link.line import Line
 from i7000.link.target import open_target
@@ -22,22 +26,32 @@ from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
-__all__ = ["Bench", "BenchError"]
+__all__ = ["Bench", "BenchError", "snapshot_name"]
+
+_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 
 
 class BenchError(I7000Error):
-    """A module that does not answer, or that is not known."""
+    """A module that does not answer, or that is not known; a file for its settings that exists."""
+
+
+def snapshot_name(before: Snapshot, address: int) -> str:
+    """Return the name of a new file for the settings of a module: its model, its address and the time."""
+    moment = datetime.now(UTC).strftime("%Y%m%dT%H%M%S%fZ")
+    return f"i7000-{before.model.value}-{address:02X}-{moment}.json"
 
 
 class Bench:
     """A module at a target, ready for checks.
 
     Shape: `target` as for `open_target`. `model` is used in place of what the module says it is. `allow` are the
-        hazards that are allowed beside reads.
-    Errors: `LinkError`, `InvalidValueError` for the target; `BenchError` for a module that does not answer.
+        hazards that are allowed beside reads. `snapshot` is a new file for the settings of before, or a folder for a
+        file that is named after model, address and time; `kept` is that file as soon as it is written.
+    Errors: `LinkError`, `InvalidValueError` for the target; `BenchError` for a module that does not answer, and for a
+        file that exists.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - each of them is a fact
         self,
         target: str,
         *,
@@ -45,10 +59,15 @@ class Bench:
         model: Model | None = None,
         line: LineSettings = LineSettings(),  # noqa: B008 - frozen
         allow: Iterable[Hazard] = (),
+        snapshot: str | os.PathLike[str] | None = None,
     ) -> None:
         check_int("address", address)
         check_type("model", model, Model, optional=True)
         allowed = allowing(allow)
+        self._place = None if snapshot is None else Path(snapshot)
+        self.kept: Path | None = None
+        if self._place is not None and os.path.lexists(self._place) and not self._place.is_dir():
+            raise BenchError(f"{self._place} exists: give the name of a new file")
         self._line = Line(GuardedPort(open_target(target, line), allowed), line)
         try:
             self._begin(target, address, model, allowed)
@@ -65,7 +84,8 @@ class Bench:
             known = Profile(model, type_codes=(), checksum=bool(found.known.checksum))
         if known is None:
             raise BenchError(f"{target}: the module at address {address:02X} is not known: give its model")
-        self.before = self._line.run(snapshot(address, known, found.protocol))
+        self.before = self._line.run(read_settings(address, known, found.protocol))
+        self._address = address
         eeprom = eeprom_of(self.before)
         profile = power_on(eeprom, now=0.0).profile
         self.model = profile.model
@@ -89,8 +109,21 @@ class Bench:
             if statement.positive in self._by_id:
                 self.result(statement.positive)
             else:
-                self._line.run(self._run.checks(self._group(check)), self._tell)
+                group = self._group(check)
+                self._keep(group)
+                self._line.run(self._run.checks(group), self._tell)
         return self._results[check]
+
+    def _keep(self, group: Sequence[Planned]) -> None:
+        """Write the settings of before to the file, if checks are the first ones that may change any."""
+        if self._place is None or self.kept or not any(it.statement.hazards & _STORED and not it.skip for it in group):
+            return
+        path = self._place / snapshot_name(self.before, self._address) if self._place.is_dir() else self._place
+        with path.open("x", encoding="ascii") as file:
+            file.write(self.before.to_json())
+            file.flush()
+            os.fsync(file.fileno())
+        self.kept = path
 
     def _group(self, check: str) -> list[Planned]:
         return [self._by_id[check], *(it for it in self.planned if it.statement.positive == check)]
@@ -107,9 +140,12 @@ class Bench:
     def close(self) -> Settled:
         """Restore the module, and close the port; return what was left behind.
 
+        Special: without a check that was carried out, nothing is sent.
         Errors: `LinkError` if the port is lost.
         """
         try:
+            if not self._results:
+                return Settled()
             return self._line.run(settle(self.before, self._run.place, self._run.line))
         finally:
             self._line.close()
