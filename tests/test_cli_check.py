@@ -215,7 +215,7 @@ def test_a_full_disk_ends_the_run_before_anything_is_written(
     def full(path: str, text: str) -> None:  # noqa: ARG001
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), path)
 
-    monkeypatch.setattr("i7000.cli.checking.write_new", full)
+    monkeypatch.setattr("i7000.cli.keeping.write_new", full)
     port = FirmwarePort()
     played(port)
     before = port.modules[0].eeprom
@@ -666,7 +666,7 @@ def test_a_restoration_that_is_broken_off_is_told(run: Run, monkeypatch: pytest.
         yield Wait(0.0)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("i7000.cli.checking.settle", stopped)
+    monkeypatch.setattr("i7000.cli.keeping.settle", stopped)
     told = run("check", SIM, "link/alive")
 
     assert (told.code, "the module could not be restored: stopped" in told.err) == (3, True)

@@ -50,6 +50,17 @@ def test_writes_that_can_change_settings_are_counted_and_end_with_the_budget() -
         assert outcome.response == dcon.ModuleName(0x01, "B")
 
 
+def test_the_budget_is_lifted_for_a_module_that_is_restored() -> None:
+    guarded = GuardedPort(virtual(), allowing([Hazard.WRITE]), budget=0)
+    guarded.budget = None
+    with Line(guarded) as line:
+        line.ask(dcon.SetModuleName(0x01, "A"), PROFILE)
+
+    assert (guarded.writes, guarded.budget) == (1, None)
+    with pytest.raises(InvalidValueError, match="budget"):
+        guarded.budget = -1
+
+
 def test_a_refused_write_is_not_counted_and_not_remembered() -> None:
     guarded = GuardedPort(virtual(), budget=1)
     guarded.write(b"~01")
@@ -121,8 +132,8 @@ def test_there_is_no_public_way_around_the_guard() -> None:
     public = {name for name in dir(guarded) if not name.startswith("_")}
 
     assert public == {
-        "allowed", "baudrate", "close", "in_waiting", "is_open", "name", "parity", "read", "stopbits", "timeout",
-        "write", "writes",
+        "allowed", "baudrate", "budget", "close", "in_waiting", "is_open", "name", "parity", "read", "stopbits",
+        "timeout", "write", "writes",
     }  # fmt: skip
     assert all(getattr(guarded, name) is not port for name in public)
     with pytest.raises(AttributeError):

@@ -19,7 +19,7 @@ from i7000.conformance.hazard import Hazard, allowing
 from i7000.conformance.run import Options, asked_for, selected
 from i7000.conformance.verdict import Verdict
 
-__all__ = ["Settings", "Wishes", "allowed_of", "settings_of"]
+__all__ = ["Settings", "Wishes", "allowed_of", "check_limits", "settings_of"]
 
 _LARGEST_STATEMENT = 1 << 20
 """The bytes of the largest statement that is read."""
@@ -81,11 +81,7 @@ def settings_of(wishes: Wishes) -> Settings:
         asked = asked_for(spec.statements(), wishes.select)
     except InvalidValueError as error:
         raise UsageError(error) from None
-    low, high = _SCALES
-    if not low <= wishes.timeout_scale <= high:
-        raise UsageError(f"--timeout-scale {wishes.timeout_scale:g}: give {low:g} to {high:g}")
-    if not 0 <= wishes.eeprom_writes <= _MOST_WRITES:
-        raise UsageError(f"--eeprom-writes {wishes.eeprom_writes}: give 0 to {_MOST_WRITES}")
+    check_limits(wishes.timeout_scale, wishes.eeprom_writes)
     limit = None
     if wishes.max_time is not None:
         with named(f"--max-time {wishes.max_time}"):
@@ -93,7 +89,7 @@ def settings_of(wishes: Wishes) -> Settings:
     if wishes.baseline_update and wishes.baseline is None:
         raise UsageError("--baseline-update needs --baseline FILE")
     options = Options(
-        allowed=_allowed(wishes),
+        allowed=allowed_of(wishes.allow, confirm=wishes.confirm, can_power_cycle=wishes.can_power_cycle),
         seed=wishes.seed,
         timeout_scale=wishes.timeout_scale,
         writes=wishes.eeprom_writes,
@@ -104,6 +100,15 @@ def settings_of(wishes: Wishes) -> Settings:
     if wishes.baseline is not None:
         baseline = read_baseline(wishes.baseline, update=wishes.baseline_update)
     return Settings(ids, asked, options, _reports(wishes.reports), baseline)
+
+
+def check_limits(timeout_scale: float, eeprom_writes: int) -> None:
+    """Raise `UsageError` for numbers that --timeout-scale and --eeprom-writes cannot be."""
+    low, high = _SCALES
+    if not low <= timeout_scale <= high:
+        raise UsageError(f"--timeout-scale {timeout_scale:g}: give {low:g} to {high:g}")
+    if not 0 <= eeprom_writes <= _MOST_WRITES:
+        raise UsageError(f"--eeprom-writes {eeprom_writes}: give 0 to {_MOST_WRITES}")
 
 
 def _claims(wishes: Wishes) -> Claims | None:
@@ -123,8 +128,8 @@ def _claims(wishes: Wishes) -> Claims | None:
         raise UsageError(f"{wishes.statement}: {error.reason}") from None
 
 
-def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:
-    """Return what the texts of --allow allow.
+def allowed_of(texts: Iterable[str], *, confirm: str | None, can_power_cycle: bool) -> frozenset[Hazard]:
+    """Return what the options --allow, --confirm and --i-can-power-cycle allow.
 
     Errors: `UsageError`.
     """
@@ -133,14 +138,10 @@ def allowed_of(texts: Iterable[str]) -> frozenset[Hazard]:
         if text not in _ASKED_FOR:
             raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
         hazards.append(_ASKED_FOR[text])
-    return allowing(hazards)
-
-
-def _allowed(wishes: Wishes) -> frozenset[Hazard]:
-    allowed = allowed_of(wishes.allow)
-    if Hazard.COMM in allowed and not wishes.can_power_cycle:
+    allowed = allowing(hazards)
+    if Hazard.COMM in allowed and not can_power_cycle:
         raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
-    if Hazard.CALIBRATION in allowed and wishes.confirm is None:
+    if Hazard.CALIBRATION in allowed and confirm is None:
         raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
     return allowed
 

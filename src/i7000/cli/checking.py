@@ -1,10 +1,8 @@
 """A run of checks at a port: what it asks for first, and how it leaves the module.
 
-Laws: before the first frame that changes something, the settings of the module are in a file. Whatever ends the run,
-the module is restored, and what became of it is said.
+Laws: whatever ends the run, the module is restored, and what became of it is said, see `i7000.cli.keeping`.
 """
 
-import shlex
 import signal
 from contextlib import ExitStack
 from datetime import UTC, datetime
@@ -16,26 +14,25 @@ from i7000.cli.baseline import known_failures, write_baseline
 from i7000.cli.check_options import Settings, Wishes, settings_of
 from i7000.cli.check_screen import Screen
 from i7000.cli.check_stream import ReportStream
+from i7000.cli.keeping import Keeper
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
-from i7000.cli.snapshot_file import check_new, write_new
+from i7000.cli.snapshot_file import check_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.records import check_record, end_record, start_record
 from i7000.conformance.run import Begun, CheckResult, Planned, Run, exit_code, plan, worst
-from i7000.conformance.settle import Settled, settle
+from i7000.conformance.settle import Settled
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
-from i7000.errors import I7000Error
 from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, VirtualPort
 from i7000.link.guarded import GuardedPort
 
 __all__ = ["run"]
 
-_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _SIMULATED = "sim:"
 """The targets whose time is virtual: they take none."""
 _INTERNAL = 4
@@ -67,8 +64,7 @@ class _Checking:
         self._asked, self._wishes, self._settings = asked, wishes, settings
         self._printer, self._stream = printer, stream
         self._screen = Screen(printer, stream, settings.baseline, quiet=wishes.quiet)
-        self._kept: str | None = None
-        """The file with the settings of before."""
+        self._keeper = Keeper(asked.target, settings.options.allowed, printer, wishes.snapshot)
 
     def examine(self, open_line: OpenLine) -> int:
         """Check the module: ask what it is, carry out the plan, and restore it."""
@@ -77,7 +73,7 @@ class _Checking:
         if not before.settings:
             raise LineError(f"{there.words} stopped answering: nothing was checked")
         options = self._settings.options
-        self._check_name(before)
+        self._keeper.check_name(before, self._wishes.confirm)
         eeprom = eeprom_of(before)
         init_mode = there.address == 0 and eeprom.address != 0
         if init_mode and Hazard.COMM in options.allowed:
@@ -90,26 +86,10 @@ class _Checking:
         one = Run(planned, eeprom, options, line=line, checksum=checksum, before=before, init_mode=init_mode)
         with ExitStack() as stack:
             self._stream.open(stack)
-            self._keep(before, there)
+            self._keeper.keep(before, there)
             self._begin(before, there, one, planned)
             self._estimate(one, eeprom)
             return self._carry_out(open_line, one, before)
-
-    def _check_name(self, before: Snapshot) -> None:
-        if Hazard.CALIBRATION in self._settings.options.allowed and self._wishes.confirm != before.name:
-            raise UsageError(f"--confirm {self._wishes.confirm}: the name of the module is {before.name}")
-
-    def _keep(self, before: Snapshot, there: Reached) -> None:
-        """Write the settings to a file, if any could be changed."""
-        if not self._settings.options.allowed & _STORED:
-            return
-        path = self._wishes.snapshot
-        if path is None:
-            moment = datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
-            path = f"i7000-{before.model.value}-{there.address:02X}-{moment}.json"
-        write_new(path, before.to_json())
-        self._kept = path
-        self._printer.note(f"the settings of {there.words} are in {path}")
 
     def _estimate(self, one: Run, eeprom: Eeprom) -> None:
         """Report how long the run will take: as long as on a simulated module, in virtual time."""
@@ -165,13 +145,13 @@ class _Checking:
             failure = error
         self._stream.check = None
         settled = self._settle(open_line, one, before)
-        left = self._left(one, settled)
+        left = self._keeper.left(settled, may_have_changed=one.may_have_changed)
         if failure is not None:
             return self._failed(one, settled, left, failure)
         code = left or ended or self._code(one, settled)
         self._stream.finish(end_record(one, settled, exit_code=code, complete=not ended))
         self._screen.summary(one, settled)
-        self._what_is_left(settled, left)
+        self._keeper.report(settled, left)
         if ended:
             self._printer.error("INCOMPLETE: stopped before the end")
         elif self._wishes.certify:
@@ -209,14 +189,14 @@ class _Checking:
         self._stream.finish(end_record(one, None, exit_code=code, complete=False))
         self._screen.summary(one, None)
         self._printer.error(f"{error}: INCOMPLETE")
-        self._what_is_left(None, LEFT_CHANGED if one.may_have_changed else 0)
+        self._keeper.report(None, LEFT_CHANGED if one.may_have_changed else 0)
         return self._written(code)
 
     def _failed(self, one: Run, settled: Settled | None, left: int, failure: BaseException) -> int:
         """End a run that this program, or its output, broke off."""
         code = left or _INTERNAL
         self._stream.finish(end_record(one, settled, exit_code=code, complete=False))
-        self._what_is_left(settled, left)
+        self._keeper.report(settled, left)
         if not left and isinstance(failure, OSError | SystemExit):
             raise failure
         self._printer.error(f"internal error: {type(failure).__name__}: {failure}: INCOMPLETE")
@@ -235,32 +215,9 @@ class _Checking:
 
     def _settle(self, open_line: OpenLine, one: Run, before: Snapshot) -> Settled | None:
         """Restore the module; None if that was impossible."""
-        writing = bool(one.options.allowed & _STORED)
-        try:
-            settled = open_line.line.run(settle(before, one.place, one.line, home=one.twin, writing=writing))
-        except (I7000Error, KeyboardInterrupt) as error:
-            self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
-            return None
-        one.writes += len(settled.restored)
+        settled = self._keeper.settle(open_line, before, one.place, one.line, one.twin)
+        one.writes += len(settled.restored) if settled else 0
         return settled
-
-    def _left(self, one: Run, settled: Settled | None) -> int:
-        """Return the exit code of how the module was left; 0 if it is as before."""
-        if settled is None or settled.silent:
-            return LEFT_CHANGED if one.may_have_changed else LineError.code
-        return LEFT_CHANGED if settled.left else 0
-
-    def _what_is_left(self, settled: Settled | None, left: int) -> None:
-        """Report how the module was left, and what to do."""
-        if settled and settled.silent:
-            self._printer.error("the module does not answer any more")
-        elif settled and settled.left:
-            self._printer.error(f"left changed: {', '.join(settled.left)}")
-        elif left == LEFT_CHANGED:
-            self._printer.error("the module may be left changed")
-        if left == LEFT_CHANGED and self._kept:
-            words = f"i7000 restore {shlex.quote(self._asked.target)} {shlex.quote(self._kept)}"
-            self._printer.error(f"restore it with {words}")
 
 
 def _is_decided(result: CheckResult) -> bool:

@@ -63,8 +63,7 @@ class GuardedPort:
     __slots__ = ("__budget", "__clock", "__guard", "__port", "__quiet_from", "__writes")
 
     def __init__(self, port: Port, allowed: frozenset[Hazard] = DEFAULT_ALLOWED, *, budget: int | None = None) -> None:
-        if budget is not None and not is_int(budget, 0, _LARGEST_BUDGET):
-            raise InvalidValueError("budget", budget, f"0..{_LARGEST_BUDGET} writes, or None", "")
+        _check_budget(budget)
         self.__port = port
         self.__guard = Guard(allowed)
         self.__clock = clock_of(port)
@@ -76,6 +75,16 @@ class GuardedPort:
     def allowed(self) -> frozenset[Hazard]:
         """The hazards that are allowed."""
         return self.__guard.allowed
+
+    @property
+    def budget(self) -> int | None:
+        """The number of writes that can change settings; None is any number, as for a module that is restored."""
+        return self.__budget
+
+    @budget.setter
+    def budget(self, writes: int | None, /) -> None:
+        _check_budget(writes)
+        self.__budget = writes
 
     @property
     def writes(self) -> int:
@@ -179,6 +188,11 @@ class GuardedPort:
             return method(*arguments, **options)
 
         return call
+
+
+def _check_budget(budget: int | None) -> None:
+    if budget is not None and not is_int(budget, 0, _LARGEST_BUDGET):
+        raise InvalidValueError("budget", budget, f"0..{_LARGEST_BUDGET} writes, or None", "")
 
 
 _OPTIONAL = frozenset({"flush", "now", "power_cycle", "reset_input_buffer", "sleep"})
