@@ -14,7 +14,7 @@ from i7000 import dcon, modbus
 from i7000.conformance.guard import Guard, GuardError, hazards_of
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference, is_exact
-from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
+from i7000.conformance.verdict import Difference, Lost, Skipped, SkipReason
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
 from i7000.message import Query, Response
 from i7000.models import Model
@@ -147,7 +147,7 @@ class Subject:
         Special: DCON has no timeout, so that requests by Modbus may add up to a command; a leading character and a
             carriage return end every such line, and no module carries them out.
         """
-        yield Wait(_SILENCE)
+        yield from self.wait(_SILENCE)
         self.guard = self.guard.after_silence()
         if self.protocol is Protocol.MODBUS_RTU:
             self.guard = self.guard.sending(_LINE_END, self.line)
@@ -292,7 +292,7 @@ class Subject:
         for _ in range(_MORE_TRIES):
             yield from self.wait(_PAUSE)
             if not self.answering or (yield from self.send(wire)).wire:
-                raise Unclear("the module does not answer a plain read after it", sent=sent)
+                raise Lost("the module does not answer a plain read after it", sent=sent)
         raise self.wrong("the module does not answer any more", sent, b"", "an answer to a plain read after it")
 
     def wrong(self, text: str, sent: bytes, received: bytes, expected: str, right: bytes = b"") -> Difference:
