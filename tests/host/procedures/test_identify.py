@@ -25,7 +25,7 @@ from i7000 import (
 from i7000.availability import Availability
 from i7000.device import Eeprom, factory, power_on
 from i7000.host import Policy, Rejected, TimedOut
-from i7000.host.procedures import Identified, Result, identify
+from i7000.host.procedures import Candidate, Identified, Result, identify
 from i7000.simulator.faults import Faults
 from i7000.strategies.device import eeproms
 from tests.host.procedures.lines import faults
@@ -423,6 +423,31 @@ def test_the_connecting_mode_decides_the_channels(channels: int, *, single_ended
 
     assert found.profile is not None
     assert (single_ended, channels) == (found.known.single_ended, found.profile.channels)
+
+
+def test_the_only_model_that_fits_is_doubted_if_the_module_has_a_name_of_its_own() -> None:
+    eeprom = evolve(factory(Model.M_7017R_A5), name="OVEN", protocol=Protocol.DCON)
+
+    found = Runner.on(eeprom).run(identify(0x01))
+
+    assert models(found) == ["M-7017R-A5"]
+    assert found.candidates[0].doubts == ("OVEN is not its factory name",)
+
+
+def test_the_only_model_that_fits_is_doubted_if_its_name_is_lost() -> None:
+    said = dcon.ProtocolSetting(0x01, modbus_supported=True, protocol=Protocol.DCON)
+    refusals = dict.fromkeys((*PROBES, dcon.ReadModuleName), refused)
+
+    found, _ = run(identify(0x01), by_dcon(code=0x1B) | refusals | {dcon.ReadProtocol: lambda _: said})
+
+    assert models(found) == ["M-7017R-A5"]
+    assert found.candidates[0].doubts == ("the name was not learned",)
+
+
+def test_a_factory_name_leaves_no_doubt_about_the_only_model() -> None:
+    found, _ = run(identify(0x01), by_dcon() | {dcon.ReadProtocol: refused})
+
+    assert found.candidates == (Candidate(Model.I_7019R),)
 
 
 def test_a_7017z_whose_name_was_set_is_known_by_its_connecting_mode() -> None:

@@ -61,7 +61,7 @@ def identify_by_dcon(
     evidence, known, silent = yield from _probed(address, evidence, known, contact)
     known, no_mode = yield from _connecting_mode(address, evidence, known, policy)
     known, no_types = yield from _types(address, evidence, known, configuration, policy)
-    evidence = by_factory_type(by_types(evidence, known), known)
+    evidence = _by_name_of_one(by_factory_type(by_types(evidence, known), known), name)
     modbus = (Unknown("modbus_data_format", "DCON has no command that reads it"),)
     return Identified(
         address,
@@ -113,6 +113,15 @@ def _by_name(name: str | None) -> Evidence:
     if _FACTORY_NAME.fullmatch(name):
         return Evidence.of((), f"{name} is the name of another product")
     return Evidence.of(Model, f"{name} is not a factory name")
+
+
+def _by_name_of_one(evidence: Evidence, name: str | None) -> Evidence:
+    """Doubt the only model that is left if the name of the module does not confirm it."""
+    if name is None:
+        return evidence.alone("the name was not learned")
+    if any(model.factory_name == name for model in evidence.models):
+        return evidence
+    return evidence.alone(f"{name} is not its factory name")
 
 
 def _by_configuration(
@@ -178,7 +187,7 @@ def _probed(
 
 
 def _once(command: dcon.Command[Any], profile: Profile, contact: Policy | None) -> Procedure[Result[Any]]:
-    """Make the procedure that asks a second time only if something was received that is no answer."""
+    """Make the procedure that asks a second time only if something other than the response came."""
     result = yield from ask(command, profile, contact)
     if isinstance(result.outcome, TimedOut) and result.others:
         result = yield from ask(command, profile, contact)
