@@ -23,7 +23,7 @@ from i7000.host.procedures import ChannelFault, Identified, Place, Procedure, Re
 from i7000.host.procedures.identified import profile_of
 from i7000.link import Line
 
-__all__ = ["Polled", "Station", "at_words", "found_words", "merged", "models_words"]
+__all__ = ["Polled", "Station", "at_words", "candidates_words", "found_words", "merged"]
 
 _SILENT = "no answer"
 _TRIED = 2
@@ -210,7 +210,7 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
 def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
-    models = models_words(found) or profile.model.value
+    models = candidates_words(found) or profile.model.value
     read_as = f", read as {profile.model.value}" if len(found.candidates) > 1 else ""
     version = found.known.firmware or found.version
     firmware = f" {version}" if version else ""
@@ -241,7 +241,7 @@ def _models(found: Identified) -> str:
     return " or ".join(candidate.model.value for candidate in found.candidates)
 
 
-def models_words(found: Identified) -> str:
+def candidates_words(found: Identified) -> str:
     """Return the models that a module can be, the most likely one first; an empty text if there are none."""
     words = _models(found)
     doubted = len(found.candidates) == 1 and found.candidates[0].doubts
