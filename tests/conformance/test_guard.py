@@ -145,6 +145,17 @@ def test_unfinished_text_is_remembered(before: bytes) -> None:
     assert "calibration" in str(refused.value)
 
 
+def test_what_is_on_the_line_is_named_only_if_it_is_part_of_the_reason() -> None:
+    guard = Guard().sending(b"$012\r", LINE).sending(b"$01", LINE)
+    refused = {}
+    for wire in (b"0\r", b"\r$010\r"):
+        with pytest.raises(GuardError) as error:
+            guard.sending(wire, LINE)
+        refused[wire] = error.value.before
+
+    assert refused == {b"0\r": b"$012\r$01", b"\r$010\r": b""}
+
+
 def test_unfinished_text_outlives_a_silence_and_ends_with_its_carriage_return() -> None:
     guard = Guard().sending(b"$01", LINE)
 

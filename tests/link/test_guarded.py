@@ -82,6 +82,24 @@ def test_a_power_cycle_empties_the_line() -> None:
     assert guarded.write(b"0\r") == 2
 
 
+@pytest.mark.parametrize(("options", "expected"), [({"init_switch": True}, True), ({"init_switch": False}, False)])
+def test_the_init_switch_at_a_power_cycle_is_that_of_the_port(options: Any, expected: Any) -> None:
+    port = virtual()
+    GuardedPort(port).power_cycle(**options)
+
+    assert port.modules[0].ram.init_mode is expected
+
+
+def test_a_power_cycle_that_fails_leaves_the_line_as_it_is() -> None:
+    guarded = GuardedPort(virtual())
+    guarded.write(b"$01")
+    with pytest.raises(TypeError):
+        guarded.power_cycle(True)
+
+    with pytest.raises(GuardError):
+        guarded.write(b"0\r")
+
+
 def test_the_settings_of_the_port_are_those_of_the_guard() -> None:
     port = virtual()
     guarded = GuardedPort(port, DEFAULT_ALLOWED)

@@ -25,6 +25,7 @@ from i7000.cli.report_files import MADE, write_report
 from i7000.cli.snapshot_file import check_new, write_new
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import LineError, UsageError
+from i7000.conformance.guard import GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
@@ -54,7 +55,10 @@ def run(asked: Asked, wishes: Wishes) -> int:
     def body(open_line: OpenLine) -> int:
         return _Checking(asked, wishes, settings, printer, wire).examine(open_line)
 
-    return at_port(asked, body, wire.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
+    try:
+        return at_port(asked, body, wire.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
+    except GuardError as error:  # while the cause of a silence is looked for
+        raise UsageError(error) from None
 
 
 @define
@@ -220,7 +224,7 @@ class _Checking:
     def _settle(self, open_line: OpenLine, one: Run, before: Snapshot) -> Settled | None:
         """Restore the module; None if that was impossible."""
         try:
-            return open_line.line.run(settle(before, one.place, one.line))
+            return open_line.finish(settle(before, one.place, one.line))
         except (LinkError, KeyboardInterrupt) as error:
             self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None
