@@ -263,15 +263,7 @@ def outcome_of(case: Case) -> Outcome:
     """
     if not _is_harmless(case.before):
         return outcome_of(_with_less_before(case))
-    bus, ear = Bus((module_of(case.combination, case.address),)), Ear(UARTS[case.host])
-    if case.before:
-        bus, ear, _ = bus.hear(ear, case.before, SIGNALS, NOW)
-    if case.silence:
-        bus, ear, _ = bus.silence(ear, SIGNALS, NOW)
-    (ready,) = bus.modules
-    bus, ear, first = bus.hear(ear, case.wire, SIGNALS, NOW)
-    bus, ear, second = bus.silence(ear, SIGNALS, NOW)
-    acted = acted_on(ready, bus.modules[0], first + second)
+    acted = done_with(case, case.wire)
     if not acted:
         return Outcome(acted, frozenset())
     try:
@@ -279,6 +271,28 @@ def outcome_of(case: Case) -> Outcome:
     except GuardError:  # because of what modules with other line settings hear
         return outcome_of(_with_less_before(case))
     return Outcome(acted, guard.hazards_of(case.wire, case.host))
+
+
+def acted_after(case: Case, allowed: frozenset[Hazard]) -> set[Hazard] | None:
+    """What a module did with a string behind a guard with permissions; None if the guard refused any of it."""
+    try:
+        guard_before(case, allowed).sending(case.wire, case.host)
+    except GuardError:
+        return None
+    return done_with(case._replace(before=b"", silence=False), case.before) | done_with(case, case.wire)
+
+
+def done_with(case: Case, wire: bytes) -> set[Hazard]:
+    """What a module does with bytes after the unfinished ones, as if there were no guard."""
+    bus, ear = Bus((module_of(case.combination, case.address),)), Ear(UARTS[case.host])
+    if case.before:
+        bus, ear, _ = bus.hear(ear, case.before, SIGNALS, NOW)
+    if case.silence:
+        bus, ear, _ = bus.silence(ear, SIGNALS, NOW)
+    (ready,) = bus.modules
+    bus, ear, first = bus.hear(ear, wire, SIGNALS, NOW)
+    bus, ear, second = bus.silence(ear, SIGNALS, NOW)
+    return acted_on(ready, bus.modules[0], first + second)
 
 
 def guard_before(case: Case, allowed: frozenset[Hazard]) -> Guard:

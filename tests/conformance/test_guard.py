@@ -21,6 +21,7 @@ from i7000 import (
     modbus,
 )
 from i7000.conformance import DEFAULT_ALLOWED, LONGEST_WRITE, Guard, GuardError, Hazard, allowing, hazards_of
+from i7000.conformance.guard_rtu import hazards_of_modules, hazards_with_crc
 from i7000.conformance.hazard import hazard_of
 from i7000.modbus.registers import Access, Area, rows
 from tests.conformance.acting import LINES
@@ -126,6 +127,42 @@ CHANGING = ("write", "comm", "calibration")
 def test_a_request_that_changes_something_is_dangerous_with_a_wrong_crc_and_without_one(name: str, body: bytes) -> None:
     for wire in (body, body + b"\x00", body + b"\x12\x34", sealed(body)[:-1], body + b"\x12\x34\x56"):
         assert Hazard(name) in hazards_of(wire)
+
+
+def test_a_broadcast_that_changes_something_is_one_with_a_wrong_crc_and_without_one() -> None:
+    write, read = bytes.fromhex("00 06 01E9 0001"), bytes.fromhex("00 04 0000 0008")
+
+    for rest in (b"", b"\x00", b"\x12\x34"):
+        assert hazards_of(write + rest) == {Hazard.OBSERVE, Hazard.WRITE, Hazard.BROADCAST}
+        assert hazards_of(read + rest) == {Hazard.OBSERVE}
+
+
+OF_MODULES = {0x01, 0x05, 0x06, 0x0F, 0x10, 0x46}
+TOO_SHORT = "01 46 06 00 06 00 00 00 00 00"
+WHOLE = [
+    pytest.param(name, bytes.fromhex(text), id=text) for name, text in REQUESTS
+    if name != "observe" and text != TOO_SHORT
+]  # fmt: skip
+
+
+@each(("name", "body"), WHOLE)
+def test_a_request_that_is_sent_in_pieces_is_found_by_its_right_crc(name: str, body: bytes) -> None:
+    for before in (b"", b"\x63" * 200):
+        wire = before + sealed(body)
+        for new in range(len(before) + 1, len(wire)):
+            assert Hazard(name) in hazards_with_crc(wire, new)
+            if body[1] in OF_MODULES:
+                assert Hazard(name) in hazards_of_modules(wire, new)
+
+        assert hazards_with_crc(wire, len(wire)) == hazards_of_modules(wire, len(wire)) == {Hazard.OBSERVE}
+
+
+@each(("name", "body"), WHOLE)
+def test_a_request_of_another_length_is_found_by_its_right_crc_if_silence_can_end_it(name: str, body: bytes) -> None:
+    for extra in (1, 2, 5):
+        wire = b"\x02" + sealed(body + bytes(extra))
+
+        assert Hazard(name) in hazards_with_crc(wire, 0) & hazards_with_crc(wire, 1)
 
 
 def test_text_in_the_data_of_a_request_is_heard() -> None:

@@ -1,6 +1,6 @@
 """Procedures on a port with a guard: what the guard refuses ends a question, not the procedure.
 
-Laws: nothing that the guard refuses is sent. A refused question is told, and counts as one without an answer.
+Laws: nothing that the guard refuses is sent. A refused question is reported, and counts as one without an answer.
 """
 
 from typing import Any, TypeVar
@@ -24,8 +24,8 @@ LINE_END = b"#\r"
 def as_allowed(procedure: Procedure[T]) -> Procedure[T]:
     """Make the procedure that does the same on a port with a guard, apart from what the guard refuses.
 
-    Shape: it tells the `GuardError` of each refused request, and the procedure is sent a `i7000.host.TimedOut`, as if
-        there were no answer.
+    Shape: it yields a `Tell` with the `GuardError` of each refused request. The procedure is sent a
+        `i7000.host.TimedOut`, as if there were no answer.
     Special: a request by Modbus may be refused only because of text that earlier requests left on the line. It is sent
         again after `LINE_END`.
 
