@@ -191,4 +191,3 @@ def test_text_that_frames_by_modbus_leave_does_not_prevent_the_sentinel(
 
     assert told.code == 0
     assert "40 frames sent" in told.out
-

@@ -21,7 +21,7 @@ from i7000 import (
     modbus,
 )
 from i7000.conformance import DEFAULT_ALLOWED, LONGEST_WRITE, Guard, GuardError, Hazard, allowing, hazards_of
-from i7000.conformance.guard_rtu import hazards_of_modules, hazards_with_crc
+from i7000.conformance.guard_rtu import hazards_at, hazards_of_modules, hazards_with_crc
 from i7000.conformance.hazard import hazard_of
 from i7000.modbus.registers import Access, Area, rows
 from tests.conformance.acting import LINES
@@ -99,6 +99,9 @@ REQUESTS = (
     ("comm", "01 10 01E0 0001 0A 0001 0001 0001 0001 0001"), ("comm", "01 10 FFFF 0300 02 0001"),
     ("comm", "01 46 04 02 0000 00"), ("comm", "01 46 06 00 06 00 00 00 00 00"), ("comm", "01 08 0001 0000"),
     ("comm", "01 16 01E4 00FF 0001"), ("comm", "01 17 0000 0001 01E4 0001 02 0001"),
+    ("comm", "01 46 06 00 06 00 00 00 00 00 00"), ("comm", "01 08 0100 0000"),
+    ("write", "01 0F 0000 0050 0A 00000000000000000000"), ("write", "01 15 0E 06 0001 0000 0001 0000 0000 000000"),
+    ("comm", "01 0F 00F0 0001 03 000000"),
     ("calibration", "01 05 010F FF00"), ("calibration", "01 0F 0108 0010 02 FFFF"), ("calibration", "00 05 010F FF00"),
 )  # fmt: skip
 
@@ -163,6 +166,32 @@ def test_a_request_of_another_length_is_found_by_its_right_crc_if_silence_can_en
         wire = b"\x02" + sealed(body + bytes(extra))
 
         assert Hazard(name) in hazards_with_crc(wire, 0) & hazards_with_crc(wire, 1)
+
+
+KNOWN_AT = {0x05: 4, 0x06: 4, 0x08: 4, 0x0F: 4, 0x10: 4, 0x15: 3, 0x16: 4, 0x17: 8, 0x46: 3}
+"""The bytes from which on a request is dangerous: its function code or its first address."""
+SHORTEST = {0x05: 6, 0x06: 6, 0x08: 6, 0x0F: 8, 0x10: 9, 0x15: 10, 0x16: 8, 0x17: 13}
+
+
+BODIES = [pytest.param(bytes.fromhex(text), id=text) for name, text in REQUESTS if name in CHANGING]
+
+
+@each("body", BODIES)
+def test_a_request_is_dangerous_from_its_first_address_on(body: bytes) -> None:
+    known = KNOWN_AT[body[1] & 0x7F]
+
+    assert hazards_at(body[: known - 1], whole_body=False) == {Hazard.OBSERVE}
+    assert hazards_at(body[:known], whole_body=False) != {Hazard.OBSERVE}
+
+
+@each("body", [it for it in BODIES if len(it.values[0]) == SHORTEST.get(it.values[0][1] & 0x7F)])
+def test_a_request_after_other_bytes_is_dangerous_once_it_is_complete(body: bytes) -> None:
+    assert hazards_at(body[:-1], whole_body=True) == {Hazard.OBSERVE}
+    assert hazards_at(body, whole_body=True) != {Hazard.OBSERVE}
+
+
+def test_what_is_too_short_for_an_address_is_no_request_with_the_right_crc() -> None:
+    assert hazards_with_crc(sealed(b"\x01\x06"), 0) == {Hazard.OBSERVE}
 
 
 def test_text_in_the_data_of_a_request_is_heard() -> None:

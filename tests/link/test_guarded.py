@@ -107,6 +107,8 @@ def test_the_settings_of_the_port_are_those_of_the_guard() -> None:
     with Line(guarded, line):
         assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (port.baudrate, port.parity, port.stopbits)
         assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (19200, "E", 1)
+    guarded.stopbits = 2
+    assert port.stopbits == 2
     guarded.timeout = 2.0
 
     assert port.timeout == guarded.timeout == 2.0
