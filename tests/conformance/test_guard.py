@@ -21,7 +21,7 @@ from i7000 import (
     modbus,
 )
 from i7000.conformance import DEFAULT_ALLOWED, LONGEST_WRITE, Guard, GuardError, Hazard, allowing, hazards_of
-from i7000.conformance.guard_rtu import hazards_at, hazards_of_modules, hazards_with_crc
+from i7000.conformance.guard_rtu import begins_nothing, hazards_at, hazards_of_modules, hazards_with_crc
 from i7000.conformance.hazard import hazard_of
 from i7000.modbus.registers import Access, Area, rows
 from tests.conformance.acting import LINES
@@ -101,7 +101,8 @@ REQUESTS = (
     ("comm", "01 16 01E4 00FF 0001"), ("comm", "01 17 0000 0001 01E4 0001 02 0001"),
     ("comm", "01 46 06 00 06 00 00 00 00 00 00"), ("comm", "01 08 0100 0000"),
     ("write", "01 0F 0000 0050 0A 00000000000000000000"), ("write", "01 15 0E 06 0001 0000 0001 0000 0000 000000"),
-    ("comm", "01 0F 00F0 0001 03 000000"),
+    ("comm", "01 0F 00F0 0001 03 000000"), ("observe", "01 01 0111 0001"), ("write", "01 46 26 0000FF"),
+    ("write", f"01 17 0000 0001 01E9 007F FF {'00' * 255}"),
     ("calibration", "01 05 010F FF00"), ("calibration", "01 0F 0108 0010 02 FFFF"), ("calibration", "00 05 010F FF00"),
 )  # fmt: skip
 
@@ -160,7 +161,7 @@ def test_a_request_that_is_sent_in_pieces_is_found_by_its_right_crc(name: str, b
         assert hazards_with_crc(wire, len(wire)) == hazards_of_modules(wire, len(wire)) == {Hazard.OBSERVE}
 
 
-@each(("name", "body"), WHOLE)
+@each(("name", "body"), [it for it in WHOLE if len(it.values[1]) < 0x100])
 def test_a_request_of_another_length_is_found_by_its_right_crc_if_silence_can_end_it(name: str, body: bytes) -> None:
     for extra in (1, 2, 5):
         wire = b"\x02" + sealed(body + bytes(extra))
@@ -188,6 +189,25 @@ def test_a_request_is_dangerous_from_its_first_address_on(body: bytes) -> None:
 def test_a_request_after_other_bytes_is_dangerous_once_it_is_complete(body: bytes) -> None:
     assert hazards_at(body[:-1], whole_body=True) == {Hazard.OBSERVE}
     assert hazards_at(body, whole_body=True) != {Hazard.OBSERVE}
+
+
+def test_only_a_known_function_code_begins_a_request() -> None:
+    assert begins_nothing(b"\x01\x63")
+    assert not any(map(begins_nothing, (b"", b"\x63", b"\x01\x06", b"\x01\x86")))
+
+
+def test_an_unfinished_request_after_a_long_write_is_remembered() -> None:
+    guard = Guard(frozenset(Hazard)).sending(b"\x63" * 300, LINE).sending(b"\x01", LINE)
+
+    assert Hazard.WRITE in guard.hazards_of(b"\x06\x01\xe9\x00\x01", LINE)
+
+
+def test_the_last_byte_of_the_longest_request_is_dangerous_after_all_others() -> None:
+    wire = sealed(b"\x01\x10\x01\xe9\x00\x7b\xf7" + bytes(247))
+    guard = Guard(frozenset(Hazard)).sending(b"\x63" + wire[:-1], LINE)
+
+    assert len(wire) == 256
+    assert Hazard.WRITE in guard.hazards_of(wire[-1:], LINE)
 
 
 def test_what_is_too_short_for_an_address_is_no_request_with_the_right_crc() -> None:
@@ -276,6 +296,19 @@ def test_what_modules_at_another_baud_rate_hear_is_found(wire: bytes) -> None:
     assert "9600 baud N81" in str(refused.value)
     half = len(sent) // 2 // 2 * 2
     assert refused.value.hazards <= Guard().sending(sent[:half], fast).hazards_of(sent[half:], fast)
+
+
+def test_a_request_that_modules_at_another_baud_rate_hear_is_found_in_one_piece_and_in_two() -> None:
+    fast, slow = LineSettings(BaudRate.BAUD_19200), LineSettings(BaudRate.BAUD_9600)
+    bodies = (bytes((8, 0x0F, 8, 8, 8, 8, 8, *(8,) * 7, last)) for last in range(0x100))
+    wire = next(wire for wire in map(sealed, bodies) if all(byte & 8 for byte in wire))
+    sent = half_as_fast(Random(1), wire)
+    half = len(sent) // 4 * 2
+
+    with pytest.raises(GuardError) as refused:
+        Guard().sending(sent, fast)
+    assert (refused.value.line, refused.value.hazards) == (slow, {Hazard.WRITE})
+    assert Hazard.WRITE in Guard().sending(sent[:half], fast).hazards_of(sent[half:], fast)
 
 
 def test_a_request_that_modules_with_another_parity_hear_is_found() -> None:
