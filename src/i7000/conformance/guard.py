@@ -7,8 +7,8 @@ Laws: whatever a module would carry out has hazards that are found here. Modules
 lenient: they carry out complete lines and requests only. All commands and requests that read are allowed on an idle
 line, at every address and with and without a checksum, but for two that look like others: ``$FFP00``, the protocol of
 module FF with its checksum, which looks like a new protocol; and the type of channel 5 of module A4 by function 46h,
-whose text is ``$F1S``. What is unfinished on the line can make others look dangerous. A guard keeps the last 255 bytes of each protocol, more than
-any frame needs to be completed.
+whose text is ``$F1S``. What is unfinished on the line can make others look dangerous. A guard keeps the last 255 bytes
+of each protocol, more than any frame needs to be completed.
 
 >>> Guard().sending(b"$012\r", LineSettings()).allowed == DEFAULT_ALLOWED
 True
