@@ -82,6 +82,32 @@ def test_a_power_cycle_empties_the_line() -> None:
     assert guarded.write(b"0\r") == 2
 
 
+class Buffering:
+    """A port that takes bytes faster than the line sends them."""
+
+    baudrate, parity, stopbits, timeout, time = 9600, "N", 1, 0.0, 0.0
+
+    def now(self) -> float:
+        return self.time
+
+    def write(self, data: bytes) -> int:
+        return len(data)
+
+
+def test_a_silence_begins_when_all_bytes_are_on_the_line() -> None:
+    port: Any = Buffering()
+    guarded = GuardedPort(port)
+    for wire in (b"\x63" * 300, b"\x63" * 300, b"\x05"):
+        guarded.write(wire)
+    read = modbus.encode(modbus.ReadInputRegisters(0x05, 0, 1))
+
+    port.time = 0.7
+    with pytest.raises(GuardError):
+        guarded.write(read)
+    port.time = 0.9
+    assert guarded.write(read) == 8
+
+
 @pytest.mark.parametrize(("options", "expected"), [({"init_switch": True}, True), ({"init_switch": False}, False)])
 def test_the_init_switch_at_a_power_cycle_is_that_of_the_port(options: Any, expected: Any) -> None:
     port = virtual()
