@@ -79,7 +79,7 @@ def test_a_module_without_a_bug_passes(base: tuple[Eeprom, tuple[object, ...]]) 
     assert found.settled.is_as_before
 
 
-# --- every check finds something ---------------------------------------------------------------------------------------
+# --- every check finds something --------------------------------------------------------------------------------------
 
 
 def test_every_check_fails_some_firmware() -> None:
@@ -95,7 +95,7 @@ def test_every_check_fails_some_firmware() -> None:
     assert not left
 
 
-# --- every model -------------------------------------------------------------------------------------------------------
+# --- every model ------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("model", Model, ids=lambda model: model.value)
@@ -127,7 +127,7 @@ def test_every_firmware_that_differs_passes(model: Model) -> None:
         assert not undone(found), eeprom.firmware
 
 
-# --- the command -------------------------------------------------------------------------------------------------------
+# --- the command ------------------------------------------------------------------------------------------------------
 
 TARGET = f"exec:{shlex.quote(sys.executable)} -m tests.conformance.zoo "
 

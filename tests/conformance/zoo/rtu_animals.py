@@ -1,5 +1,7 @@
 """Firmware with bugs in Modbus RTU: CRC, units, functions, counts, exceptions, function 46h, registers, settings."""
 
+# ruff: noqa: ARG001, ARG002, ARG005 - a bug rarely looks at all that it is given
+
 from collections.abc import Callable
 
 from i7000 import DecodeError, Model, Protocol, modbus
@@ -133,8 +135,14 @@ class UnknownFunctionsIgnored(Animal):
         return None if answer and answer[2:3] == b"\1" and answer[1] & 0x80 else answer
 
 
-HERD.add("answers-with-another-function", "Function 04 is answered with function 03.",
-         saying(rb"^(.)\x04", lambda found: found[1] + b"\3"), PLAIN, "map/input_register/analog_input rtu/04/counts", others=9)  # fmt: skip
+HERD.add(
+    "answers-with-another-function",
+    "Function 04 is answered with function 03.",
+    saying(rb"^(.)\x04", lambda found: found[1] + b"\3"),
+    PLAIN,
+    "map/input_register/analog_input rtu/04/counts",
+    others=9,
+)
 HERD.add("bit-7-ignored", "A function code with bit 7 is carried out.",
          hearing(rb"^\x01([\x84\xc6])", lambda found: b"\1" + bytes((found[1][0] & 0x7F,))), PLAIN,
          "rtu/function/bit-7")  # fmt: skip
@@ -173,11 +181,21 @@ class ReadsOneMore(Animal):
         return after, answer
 
 
-HERD.add("long-requests-taken", "A byte after a read is ignored.", hearing(rb"^(\x01[\x01-\x04]....)\x00$", rb"\1"), PLAIN,
-         "rtu/04/length", others=3)  # fmt: skip
-HERD.add("gaps-read-as-zeros", "Registers that are not there are read as 0.",
-         answering(lambda heard, said: heard[:2] + b"\2\0\0" if said[1:] == b"\x84\2" and heard[4:] == b"\0\1" else said),
-         PLAIN, "map/gaps/input_register rtu/04/counts-n2")  # fmt: skip
+HERD.add(
+    "long-requests-taken",
+    "A byte after a read is ignored.",
+    hearing(rb"^(\x01[\x01-\x04]....)\x00$", rb"\1"),
+    PLAIN,
+    "rtu/04/length",
+    others=3,
+)
+HERD.add(
+    "gaps-read-as-zeros",
+    "Registers that are not there are read as 0.",
+    answering(lambda heard, said: heard[:2] + b"\2\0\0" if said[1:] == b"\x84\2" and heard[4:] == b"\0\1" else said),
+    PLAIN,
+    "map/gaps/input_register rtu/04/counts-n2",
+)
 HERD.add("holding-gaps-read-as-zeros", "Holding registers that are not there are read as 0.",
          answering(lambda heard, said: heard[:2] + b"\2\0\0"
                    if said[1:2] == b"\x83" and heard[4:] == b"\0\1" and len(heard) == 6 else said),
@@ -229,11 +247,22 @@ HERD.add("names-of-others", "The registers of the name have that of another mode
          "map/holding_register/module_name")  # fmt: skip
 
 
-HERD.add("readings-shifted", "The input register of a channel alone is that of the next one.",
-         hearing(rb"^\x01\x04\x00([\x00-\x06])\x00\x01$", lambda found: b"\1\4\0" + bytes((found[1][0] + 1,)) + b"\0\1"), PLAIN,
-         "map/input_register/analog_input", others=2)  # fmt: skip
-HERD.add("single-reads-refused", "A register can only be read with its neighbours.",
-         refusing(rb"\x01\x04\x00[\x00-\x07]\x00\x01"), PLAIN, "map/input_register/analog_input", others=10)  # fmt: skip
+HERD.add(
+    "readings-shifted",
+    "The input register of a channel alone is that of the next one.",
+    hearing(rb"^\x01\x04\x00([\x00-\x06])\x00\x01$", lambda found: b"\1\4\0" + bytes((found[1][0] + 1,)) + b"\0\1"),
+    PLAIN,
+    "map/input_register/analog_input",
+    others=2,
+)
+HERD.add(
+    "single-reads-refused",
+    "A register can only be read with its neighbours.",
+    refusing(rb"\x01\x04\x00[\x00-\x07]\x00\x01"),
+    PLAIN,
+    "map/input_register/analog_input",
+    others=10,
+)
 HERD.add("many-reads-refused", "More than seven registers cannot be read at once.",
          refusing(rb"\x01\x03..\x00[\x08-\x7d]", 3), PLAIN, "map/across/holding_register", others=9)  # fmt: skip
 
@@ -247,9 +276,20 @@ class ResetStatusStays(Animal):
         return after.keep(reset_status_read=False), answer
 
 
-HERD.add("padding-bits-set", "The bits after the last coil are 1. That is legal: nothing finds it.",
-         answering(lambda heard, said: said[:-1] + bytes((said[-1] | 0xFF << heard[5] % 8 & 0xFF,))
-                   if said[1:2] == b"\1" and heard[5] % 8 and len(heard) == 6 else said), PLAIN, "", others=0)  # fmt: skip
+HERD.add(
+    "padding-bits-set",
+    "The bits after the last coil are 1. That is legal: nothing finds it.",
+    answering(
+        lambda heard, said: (
+            said[:-1] + bytes((said[-1] | 0xFF << heard[5] % 8 & 0xFF,))
+            if said[1:2] == b"\1" and heard[5] % 8 and len(heard) == 6
+            else said
+        )
+    ),
+    PLAIN,
+    "",
+    others=0,
+)
 
 
 # --- settings ---------------------------------------------------------------------------------------------------------
@@ -285,12 +325,30 @@ HERD.add("mask-bits-reversed", "The bits of the mask are reversed when 46h/26 se
          "rtu/46/26/set", allow=[WRITE])  # fmt: skip
 HERD.add("any-value-is-on", "A coil takes the value 0001 for FF00.", acknowledging(rb"\x01\x05..\x00\x01", 6), PLAIN,
          "rtu/05/values", allow=[WRITE])  # fmt: skip
-HERD.add("read-only-acknowledged", "Writes to the readings are acknowledged.", acknowledging(rb"\x01\x06\x00[\x00-\x1f]"), PLAIN,
-         "map/read-only/holding_register/analog_input", allow=[WRITE])  # fmt: skip
-HERD.add("undefined-types-taken", "An undefined type code is acknowledged.", acknowledging(rb"\x01\x06\x01[\x00-\x07]\x00[\x1b\x1c]"),
-         PLAIN, "map/write/type_code-n1", allow=[WRITE])  # fmt: skip
-HERD.add("bounds-one-too-wide", "A channel mask of 100h is acknowledged.", acknowledging(rb"\x01\x06\x01\xe9\x01\x00"), PLAIN,
-         "map/write/channels-n1", allow=[WRITE])  # fmt: skip
+HERD.add(
+    "read-only-acknowledged",
+    "Writes to the readings are acknowledged.",
+    acknowledging(rb"\x01\x06\x00[\x00-\x1f]"),
+    PLAIN,
+    "map/read-only/holding_register/analog_input",
+    allow=[WRITE],
+)
+HERD.add(
+    "undefined-types-taken",
+    "An undefined type code is acknowledged.",
+    acknowledging(rb"\x01\x06\x01[\x00-\x07]\x00[\x1b\x1c]"),
+    PLAIN,
+    "map/write/type_code-n1",
+    allow=[WRITE],
+)
+HERD.add(
+    "bounds-one-too-wide",
+    "A channel mask of 100h is acknowledged.",
+    acknowledging(rb"\x01\x06\x01\xe9\x01\x00"),
+    PLAIN,
+    "map/write/channels-n1",
+    allow=[WRITE],
+)
 
 
 @HERD.animal("format-not-used", PLAIN, "values/modbus-formats", allow=[WRITE], others=2)
