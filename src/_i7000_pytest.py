@@ -38,9 +38,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="check the module at this port: a device, socket://HOST:PORT, sim:MODEL or exec:COMMAND",
     )
     group.addoption("--i7000-address", metavar="ADDRESS", type=int, default=1, help="its address, 1 unless given")
-    group.addoption(
-        "--i7000-model", metavar="MODEL", help="its model, such as M-7019R; it is asked for it unless given"
-    )
+    group.addoption("--i7000-model", metavar="MODEL", help="its model, such as M-7019R; read from it unless given")
     group.addoption(
         "--i7000-allow",
         metavar="HAZARD",

@@ -89,6 +89,7 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
         *sorted(path.name for path in ROOT.glob("*.md")),
         "spec/README.md",
         "tests/README.md",
+        "docs/check_a_module.md",
         "docs/half_duplex.md",
         "docs/find_a_module.md",
         "docs/judge_a_line.md",

@@ -68,11 +68,12 @@ ROWS = (
         ("tests/modbus/test_vectors.py", "tests/modbus"), MODBUS, EVERYWHERE,
     )),
     Row("guard", "src/i7000/conformance/guard*.py", (
-        ("tests/conformance/test_guard*.py",), ("tests/conformance", "tests/link/test_guarded.py"), EVERYWHERE,
+        ("tests/conformance/test_guard.py",), ("tests/conformance/test_guard_proof.py", "tests/link/test_guarded.py"),
+        ("tests/conformance", *EVERYWHERE),
     )),
     Row("guard", "src/i7000/conformance/hazard.py", (
-        ("tests/conformance/test_hazard.py", "tests/conformance/test_guard*.py"),
-        ("tests/conformance", "tests/link/test_guarded.py"), EVERYWHERE,
+        ("tests/conformance/test_hazard.py", "tests/conformance/test_guard.py"),
+        ("tests/conformance/test_guard_proof.py", "tests/link/test_guarded.py"), ("tests/conformance", *EVERYWHERE),
     )),
     Row("host", "src/i7000/host/procedures/identif*.py", (
         ("tests/host/procedures/test_identify.py", "tests/host/procedures/test_evidence.py"), PROCEDURES, EVERYWHERE,
@@ -128,10 +129,13 @@ ROWS = (
     Row("spec", "spec/vectors/registers/*.json", (
         ("tests/modbus/test_register_vectors.py",), RULES, SPEC, ("tests/modbus",),
     )),
-    Row("spec", "spec/vectors/*.json", (
-        ("tests/dcon/test_frame.py", "tests/modbus/test_frame.py", "tests/modbus/test_stream.py",
-         "tests/test_readings.py", "tests/dcon/test_reports.py"),
-        RULES, SPEC, ("tests/dcon", "tests/modbus"),
+    Row("spec", "spec/vectors/readings/*.json", (
+        ("tests/test_agreement.py", "tests/dcon/test_vectors.py"), RULES, SPEC,
+        ("tests/test_readings.py", "tests/dcon"),
+    )),
+    Row("spec", "spec/vectors/frames/*.json", (
+        ("tests/dcon/test_vectors.py", "tests/modbus/test_vectors.py", "tests/modbus/test_stream.py"), RULES, SPEC,
+        ("tests/dcon", "tests/modbus"),
     )),
     Row("spec", "spec/stories/*.json", (
         ("tests/device/test_stories.py",), ("tests/spec/test_stories.py", "tests/spec/test_references.py"), SPEC,

@@ -91,6 +91,18 @@ def test_an_erratum_names_the_commands_and_tables_that_name_it(erratum: str) -> 
     assert wrong([Cell("errata.json", erratum, "used_by", sorted(users), sorted(commands | tables))]) == []
 
 
+@pytest.mark.parametrize(
+    "path",
+    [path for folder in ("frames", "readings", "registers") for path in lint.vector_files(folder)],
+    ids=lint.name,
+)
+def test_a_file_of_vectors_that_are_no_exchanges_and_the_errata_that_they_cite_name_each_other(path: Path) -> None:
+    cited = {vector["erratum"] for vector in lint.records(lint.load(path))} - {None}
+    naming = {erratum for erratum, row in ERRATA.items() if lint.name(path) in row["used_by"]}
+
+    assert wrong([Cell("errata.json", lint.name(path), "used_by", sorted(naming), sorted(cited))]) == []
+
+
 @pytest.mark.parametrize("table", ["dcon_commands", "module_settings"])
 def test_a_row_and_the_errata_of_its_section_name_each_other(table: str) -> None:
     cells = []

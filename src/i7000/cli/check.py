@@ -1,5 +1,6 @@
 """``i7000 check``: a module held against the protocol."""
 
+import sys
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -23,6 +24,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     ],
     list_: Annotated[bool, Parameter(name="--list", help="List the checks, and end.", negative="")] = False,
     explain: Annotated[str | None, Parameter(help="Explain a check, and end. Example: --explain link/alive.")] = None,
+    schema: Annotated[
+        bool, Parameter(help="Print the JSON Schema of a line of a JSON report, and end.", negative="")
+    ] = False,
     allow: Annotated[
         Texts,
         Parameter(help="Also send what could do harm: write, broadcast, comm or calibration; repeat it."),
@@ -91,13 +95,19 @@ def check(  # noqa: PLR0913 - each of them is an option
     Example: `i7000 check 'exec:./firmware' --allow write --report junit=results.xml`
 
     Exit code: 0 if all that ran passed; 1 for FAIL, FLAKY and PASS-GOOD-ONLY (and WARN with `--strict`) that are not in
-    the baseline; 2 for wrong usage, 3 if the port cannot be opened or is lost or the module does not answer, 4 for an
-    internal error, 5 if nothing was decided, 6 if the module was left changed, 130 after Ctrl-C. The worst one wins.
+    the baseline; 2 for wrong usage or a report that cannot be written; 3 if the port cannot be opened or is lost, or
+    the module does not answer; 4 for an internal error; 5 if nothing was decided; 6 if the module was left changed;
+    130 after Ctrl-C. The worst one wins.
     """
     from i7000.cli.check_options import Wishes  # noqa: PLC0415 - it takes time
     from i7000.cli.check_text import explained, listed  # noqa: PLC0415 - it takes time
     from i7000.cli.checking import run  # noqa: PLC0415 - it takes time
 
+    if schema:
+        from i7000.cli.check_schema import SCHEMA  # noqa: PLC0415 - it takes time
+
+        sys.stdout.write(f"{SCHEMA}\n")
+        return 0
     if list_:
         return listed((*((target,) if target else ()), *select))
     if explain is not None:

@@ -1,27 +1,28 @@
-"""The options of a run of checks, and what they mean; a baseline of failures that are known.
+"""The options of a run of checks, and what they mean.
 
 Laws: everything that can be wrong with the options is said before the port is opened.
 """
 
-import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from attrs import frozen
 
 from i7000 import InvalidValueError, spec
+from i7000.cli.baseline import read_baseline
 from i7000.cli.durations import seconds
 from i7000.cli.module import named
 from i7000.cli.report_files import KINDS
 from i7000.cli.words import UsageError
 from i7000.conformance.claims import Claims
 from i7000.conformance.hazard import Hazard, allowing
-from i7000.conformance.run import CheckResult, Options, selected
+from i7000.conformance.run import Options, asked_for, selected
 from i7000.conformance.verdict import Verdict
 
-__all__ = ["FAILURES", "Settings", "Wishes", "allowed_of", "settings_of", "write_baseline"]
+__all__ = ["Settings", "Wishes", "allowed_of", "settings_of"]
 
-_LARGEST_BASELINE = 1 << 20
+_LARGEST_STATEMENT = 1 << 20
+"""The bytes of the largest statement that is read."""
 _SCALES = 0.1, 100.0
 _MOST_WRITES = 10_000
 _ASKED_FOR = {
@@ -59,10 +60,13 @@ class Settings:
     """What the options mean."""
 
     ids: frozenset[str]
+    """The checks that were selected, and those that they need."""
+    asked: frozenset[str]
+    """The checks that were selected."""
     options: Options
     reports: tuple[tuple[str, str], ...]
-    known: frozenset[str]
-    """The failures of the baseline."""
+    baseline: Mapping[str, Verdict]
+    """The failures that are known."""
 
 
 def settings_of(wishes: Wishes) -> Settings:
@@ -74,6 +78,7 @@ def settings_of(wishes: Wishes) -> Settings:
         raise UsageError("--certify checks everything: leave out the selection and --baseline")
     try:
         ids = selected(spec.statements(), wishes.select)
+        asked = asked_for(spec.statements(), wishes.select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     low, high = _SCALES
@@ -95,7 +100,10 @@ def settings_of(wishes: Wishes) -> Settings:
         seconds=limit,
         claims=_claims(wishes),
     )
-    return Settings(ids, options, _reports(wishes.reports), _baseline(wishes))
+    baseline: Mapping[str, Verdict] = {}
+    if wishes.baseline is not None:
+        baseline = read_baseline(wishes.baseline, update=wishes.baseline_update)
+    return Settings(ids, asked, options, _reports(wishes.reports), baseline)
 
 
 def _claims(wishes: Wishes) -> Claims | None:
@@ -108,9 +116,9 @@ def _claims(wishes: Wishes) -> Claims | None:
             raise UsageError("statement: give --statement FILE, made by i7000 statement")
         return None
     with Path(wishes.statement).open("rb") as file:
-        data = file.read(_LARGEST_BASELINE + 1)
+        data = file.read(_LARGEST_STATEMENT + 1)
     try:
-        return Claims.from_json(data[:_LARGEST_BASELINE])
+        return Claims.from_json(data[:_LARGEST_STATEMENT])
     except InvalidValueError as error:
         raise UsageError(f"{wishes.statement}: {error.reason}") from None
 
@@ -142,54 +150,14 @@ def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
     Errors: `UsageError`; `OSError` for a file that cannot be written.
     """
-    found = []
+    found: list[tuple[str, str]] = []
     for text in texts:
         kind, equals, file = text.partition("=")
         if kind not in KINDS or not equals or not file:
             raise UsageError(f"--report {text}: give KIND=FILE; kinds are {', '.join(KINDS)}")
+        if any(Path(file).absolute() == Path(other).absolute() for _, other in found):
+            raise UsageError(f"--report {text}: another report has this file")
         with Path(file).open("a", encoding="utf-8"):
             pass
         found.append((kind, file))
     return tuple(found)
-
-
-# --- the baseline -----------------------------------------------------------------------------------------------------
-
-
-def _baseline(wishes: Wishes) -> frozenset[str]:
-    """Return the ids of the failures that are known.
-
-    Errors: `UsageError` for a file that is not a baseline, `OSError` for one that cannot be read.
-    """
-    if wishes.baseline is None:
-        return frozenset()
-    file = Path(wishes.baseline)
-    if wishes.baseline_update and not file.exists():
-        with file.open("a", encoding="utf-8"):
-            return frozenset()
-    with file.open("rb") as opened:
-        data = opened.read(_LARGEST_BASELINE + 1)
-    if wishes.baseline_update and not data:
-        return frozenset()
-    try:
-        document = json.loads(data) if len(data) <= _LARGEST_BASELINE else None
-    except (ValueError, RecursionError):
-        document = None
-    document = document if isinstance(document, dict) and document.get("schema_version") == 1 else {}
-    failures = document.get("failures")
-    if not isinstance(failures, dict):
-        raise UsageError(f"{file}: this is not a baseline: write one with --baseline-update")
-    unknown = sorted(set(failures) - set(spec.statements()))
-    if unknown:
-        raise UsageError(f"{file}: there is no check {unknown[0]}")
-    return frozenset(failures)
-
-
-FAILURES = frozenset({Verdict.FAIL, Verdict.FLAKY, Verdict.PASS_GOOD_ONLY, Verdict.WARN})
-
-
-def write_baseline(path: str, results: Iterable[CheckResult]) -> None:
-    """Write the failures of a run to a file, as those that are known."""
-    failures = {it.id: it.verdict.value for it in results if it.verdict in FAILURES}
-    text = json.dumps({"schema_version": 1, "failures": dict(sorted(failures.items()))}, indent=2)
-    Path(path).write_text(text + "\n", encoding="ascii")

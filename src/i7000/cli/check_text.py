@@ -1,8 +1,9 @@
 """Checks and what became of them, in lines for people."""
 
+from collections.abc import Iterator, Sequence
+
 from i7000 import InvalidValueError, Protocol, spec
-from i7000.cli.check_options import FAILURES
-from i7000.cli.records import frame_words
+from i7000.cli.baseline import FAILURES
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import UsageError
 from i7000.conformance.hazard import Hazard
@@ -10,7 +11,7 @@ from i7000.conformance.run import CheckResult, selected
 from i7000.conformance.statement import Statement
 from i7000.conformance.verdict import Verdict
 
-__all__ = ["STYLES", "details", "explained", "listed"]
+__all__ = ["STYLES", "details", "explained", "listed", "sections_words"]
 
 
 def listed(select: tuple[str, ...]) -> int:
@@ -86,20 +87,69 @@ STYLES = {
 }
 
 
-def details(result: CheckResult) -> list[Line]:
-    """Return why a check did not pass."""
+_MOST_SECTIONS = 3
+
+
+def sections_words(sections: Sequence[str]) -> str:
+    """Return sections of the manual for a row: the first ones.
+
+    >>> sections_words(["2", "2.1"]), sections_words(["3.4.1", "3.4.2", "3.4.3", "3.4.4"])
+    ('2, 2.1', '3.4.1 ... 3.4.4')
+    """
+    return ", ".join(sections) if len(sections) <= _MOST_SECTIONS else f"{sections[0]} ... {sections[-1]}"
+
+
+def details(result: CheckResult, command: str) -> list[Line]:
+    """Return why a check did not pass; `command` repeats it."""
     if result.verdict is Verdict.PASS:
         return []
-    rows = [("", result.text)]
+    lines = [_row("", result.text)] if result.text else []
     if result.sent or result.received:
-        rows.append(("sent", _bytes(result.sent)))
-        rows.append(("received", _bytes(result.received) or "nothing"))
+        lines += _dump("sent", result.sent)
+        lines += _dump("received", result.received, result.right)
     if result.expected:
-        rows.append(("expected", result.expected))
-    if result.verdict in FAILURES:
-        rows.append(("required", result.statement.requirement))
-    return [[(f"    {name:9}" if name else "    ", "dim"), (text, "")] for name, text in rows if text]
+        lines.append(_row("expected", result.expected))
+    if result.repeats:
+        lines.append(_row("repeated", ", ".join(verdict.value for verdict in result.repeats)))
+    if result.verdict in FAILURES or result.verdict is Verdict.ERROR:
+        lines.append(_row("required", result.statement.requirement))
+        lines.append(_row("repeat", command))
+    return lines
 
 
-def _bytes(wire: bytes) -> str:
-    return frame_words(wire, Protocol.DCON) if wire.endswith(b"\r") else wire.hex(" ").upper()
+def _row(name: str, text: str) -> Line:
+    return [(f"    {name:9} " if name else "    ", "dim"), (text, "")]
+
+
+_BYTES = 16
+"""The bytes of a row: with their characters they fit in 80 columns."""
+_MOST_ROWS = 8
+
+
+def _dump(name: str, wire: bytes, right: bytes = b"") -> Iterator[Line]:
+    """Yield bytes in hex and as text, with a caret below the first one that is not right."""
+    if not wire:
+        yield _row(name, "nothing")
+    fault = _fault(wire, right) if wire and right else None
+    for start in range(0, min(len(wire), _MOST_ROWS * _BYTES), _BYTES):
+        piece = wire[start : start + _BYTES]
+        text = "".join(chr(byte) if 0x20 <= byte < 0x7F else "." for byte in piece)
+        yield _row("" if start else name, f"{' ' * 10 if start else ''}{piece.hex(' ').upper():48}  {text}".rstrip())
+        if fault is not None and start <= fault <= start + _BYTES and (fault < start + _BYTES or fault == len(wire)):
+            yield _row("", f"{' ' * (10 + 3 * (fault - start))}^^ {_fault_words(wire, right, fault)}")
+    if len(wire) > _MOST_ROWS * _BYTES:
+        yield _row("", f"{' ' * 10}and {len(wire) - _MOST_ROWS * _BYTES} more bytes")
+
+
+def _fault(wire: bytes, right: bytes) -> int | None:
+    """Return the place of the first byte that is not right; None if there is none."""
+    if wire == right:
+        return None
+    both = min(len(wire), len(right))
+    return next((at for at in range(both) if wire[at] != right[at]), both)
+
+
+def _fault_words(wire: bytes, right: bytes, at: int) -> str:
+    if at == len(wire):
+        return f"{right[at]:02X} is missing"
+    return f"{right[at]:02X} is right" if at < len(right) else "too many bytes"

@@ -1,39 +1,36 @@
-"""A run of checks at a port: what it asks for first, what it shows, and how it leaves the module.
+"""A run of checks at a port: what it asks for first, and how it leaves the module.
 
 Laws: before the first frame that changes something, the settings of the module are in a file. Whatever ends the run,
 the module is restored, and what became of it is said.
 """
 
-import json
+import shlex
 import signal
-from collections import Counter
-from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from importlib.metadata import version
-from typing import IO, Any
-
-from attrs import define
 
 from i7000 import spec
 from i7000.cli.asked import LEFT_CHANGED, Asked
-from i7000.cli.check_options import Settings, Wishes, settings_of, write_baseline
-from i7000.cli.check_text import STYLES, details
+from i7000.cli.baseline import known_failures, write_baseline
+from i7000.cli.check_options import Settings, Wishes, settings_of
+from i7000.cli.check_screen import Screen
+from i7000.cli.check_stream import ReportStream
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
-from i7000.cli.report_files import MADE, write_report
 from i7000.cli.snapshot_file import check_new, write_new
-from i7000.cli.text import Line, Printer
+from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import eeprom_of
-from i7000.conformance.records import Digest, as_line, check_record, end_record, start_record, wire_record
-from i7000.conformance.run import Begun, CheckResult, Planned, Run, exit_code, plan
+from i7000.conformance.records import check_record, end_record, start_record
+from i7000.conformance.run import Begun, CheckResult, Planned, Run, exit_code, plan, worst
 from i7000.conformance.settle import Settled, settle
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Eeprom, power_on
+from i7000.errors import I7000Error
 from i7000.host.procedures import Snapshot, snapshot
-from i7000.link import LinkError, Observed, Received, VirtualPort, Written
+from i7000.link import LinkError, VirtualPort
 from i7000.link.guarded import GuardedPort
 
 __all__ = ["run"]
@@ -41,6 +38,11 @@ __all__ = ["run"]
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _SIMULATED = "sim:"
 """The targets whose time is virtual: they take none."""
+_INTERNAL = 4
+_UNWRITABLE = 2
+_NOTHING = 5
+_CUT_SHORT = frozenset({SkipReason.BUDGET, SkipReason.PREREQUISITE})
+"""Why a check was not carried out that belongs to a whole run."""
 
 
 def run(asked: Asked, wishes: Wishes) -> int:
@@ -48,38 +50,25 @@ def run(asked: Asked, wishes: Wishes) -> int:
     settings = settings_of(wishes)
     if wishes.snapshot is not None:
         check_new(wishes.snapshot)
-    printer = Printer()
-    wire = _Wire()
+    printer, stream = Printer(), ReportStream(settings.reports)
 
     def body(open_line: OpenLine) -> int:
-        return _Checking(asked, wishes, settings, printer, wire).examine(open_line)
+        return _Checking(asked, wishes, settings, printer, stream).examine(open_line)
 
-    return at_port(asked, body, wire.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
-
-
-@define
-class _Wire:
-    """Where the bytes on the line go: nowhere until the report begins."""
-
-    record: Callable[[Observed], None] | None = None
-
-    def observe(self, observed: Observed) -> None:
-        if self.record:
-            self.record(observed)
+    return at_port(asked, body, stream.observe, guard=lambda port: GuardedPort(port, settings.options.allowed))
 
 
 class _Checking:
     """One run at a port."""
 
-    def __init__(self, asked: Asked, wishes: Wishes, settings: Settings, printer: Printer, wire: _Wire) -> None:
+    def __init__(
+        self, asked: Asked, wishes: Wishes, settings: Settings, printer: Printer, stream: ReportStream
+    ) -> None:
         self._asked, self._wishes, self._settings = asked, wishes, settings
-        self._printer, self._wire = printer, wire
-        self._digest = Digest()
-        self._records: list[dict[str, Any]] = []
-        self._file: IO[str] | None = None
-        self._check: str | None = None
-        self._began: float | None = None
-        self._width = 0
+        self._printer, self._stream = printer, stream
+        self._screen = Screen(printer, stream, settings.baseline, quiet=wishes.quiet)
+        self._kept: str | None = None
+        """The file with the settings of before."""
 
     def examine(self, open_line: OpenLine) -> int:
         """Check the module: ask what it is, carry out the plan, and restore it."""
@@ -90,14 +79,19 @@ class _Checking:
         options = self._settings.options
         self._check_name(before)
         eeprom = eeprom_of(before)
-        profile = power_on(eeprom, now=0.0).profile
+        init_mode = there.address == 0 and eeprom.address != 0
+        if init_mode and Hazard.COMM in options.allowed:
+            why = "what --allow comm tests begins outside of it"
+            raise UsageError(f"{there.words} is in INIT mode: {why}: switch INIT off, and the power off and on")
+        profile = power_on(eeprom, now=0.0, init_switch=init_mode).profile
         chosen = [it for it in spec.statements().values() if it.id in self._settings.ids]
         planned = plan(chosen, profile, there.protocol, options.allowed, options.claims)
-        self._keep(before, there)
-        one = Run(planned, eeprom, options, line=open_line.line.line, checksum=there.profile.checksum)
+        line, checksum = open_line.line.line, there.profile.checksum
+        one = Run(planned, eeprom, options, line=line, checksum=checksum, before=before, init_mode=init_mode)
         with ExitStack() as stack:
-            self._open_reports(stack)
-            self._begin(before, there, open_line, planned)
+            self._stream.open(stack)
+            self._keep(before, there)
+            self._begin(before, there, one, planned)
             self._estimate(one, eeprom)
             return self._carry_out(open_line, one, before)
 
@@ -114,150 +108,159 @@ class _Checking:
             moment = datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
             path = f"i7000-{before.model.value}-{there.address:02X}-{moment}.json"
         write_new(path, before.to_json())
+        self._kept = path
         self._printer.note(f"the settings of {there.words} are in {path}")
 
     def _estimate(self, one: Run, eeprom: Eeprom) -> None:
         """Report how long the run will take: as long as on a simulated module, in virtual time."""
         if self._asked.target.startswith(_SIMULATED):
             return
+        from i7000.cli.scanning import duration_words  # noqa: PLC0415 - it takes time
         from i7000.link import Line as PortLine  # noqa: PLC0415 - a dry run needs a line of its own
 
-        state = power_on(eeprom, now=0.0).keep(checksum=one.twin.state.ram.checksum, line_settings=one.line)
-        dry = Run(one.planned, eeprom, one.options, line=one.line, checksum=state.ram.checksum)
+        ram = one.twin.state.ram
+        state = power_on(eeprom, now=0.0, init_switch=ram.init_mode)
+        state = state.keep(checksum=ram.checksum, line_settings=one.line)
+        dry = Run(one.planned, eeprom, one.options, line=one.line, checksum=ram.checksum, init_mode=ram.init_mode)
         port = VirtualPort([state], line=one.line)
         with PortLine(GuardedPort(port, one.options.allowed), one.line) as line:
             line.run(dry.procedure())
         limit = one.options.seconds
         took = port.now() if limit is None else min(port.now(), limit)
-        self._printer.note(f"this takes about {took:.0f} s")
+        self._printer.note(f"this takes about {duration_words(took)}")
 
-    # --- the report -----------------------------------------------------------------------------------------------
-
-    def _open_reports(self, stack: ExitStack) -> None:
-        for kind, path in self._settings.reports:
-            if kind == "json":
-                self._file = stack.enter_context(open(path, "w", encoding="ascii"))  # noqa: PTH123, SIM115
-
-    def _begin(self, before: Snapshot, there: Reached, open_line: OpenLine, planned: Iterable[Planned]) -> None:
-        self._record(
+    def _begin(self, before: Snapshot, there: Reached, one: Run, planned: tuple[Planned, ...]) -> None:
+        given = self._asked.wanted.given.model
+        self._stream.begin(
             start_record(
                 version=version("i7000"),
                 spec_sha256=spec.digest(),
                 time=datetime.now(UTC).isoformat(),
                 target=self._asked.target,
-                seed=self._wishes.seed,
-                allowed=self._settings.options.allowed,
+                options=self._settings.options,
                 selection=self._wishes.select,
-                checks=len(tuple(planned)),
+                checks=len(planned),
                 snapshot=before,
                 address=there.address,
-                line=open_line.line.line,
+                line=one.line,
                 checksum=there.profile.checksum,
+                echo=self._asked.echo,
+                given_model=None if given is None else given.value,
             )
         )
-        self._width = max((len(it.statement.id) for it in planned), default=0)
-        self._wire.record = self._observe
-
-    def _observe(self, observed: Observed) -> None:
-        if isinstance(observed, Received | Written):
-            if self._began is None:
-                self._began = observed.at
-            sent, seconds = isinstance(observed, Written), observed.at - self._began
-            self._record(wire_record(self._check, seconds, observed.data, sent=sent))
-
-    def _record(self, record: dict[str, Any]) -> None:
-        self._records.append(record)
-        text = self._digest.line(record)
-        if self._file:
-            self._file.write(text + "\n")
-
-    def _finish(self, record: dict[str, Any]) -> None:
-        """Write the last line, and the reports that are made of all of them."""
-        text = self._digest.last(record)
-        self._records.append(json.loads(text))
-        if self._file:
-            self._file.write(text + "\n")
-            self._file.flush()
-        made = [(kind, path) for kind, path in self._settings.reports if kind in MADE]
-        if made:
-            lines = [*map(as_line, self._records[:-1]), text]
-            for kind, path in made:
-                write_report(lines, kind, path)
 
     # --- the run --------------------------------------------------------------------------------------------------
 
     def _carry_out(self, open_line: OpenLine, one: Run, before: Snapshot) -> int:
-        ended = 0
+        ended, failure = 0, None
         try:
-            with open_line.ending.breakable():
+            with self._screen.progress(one.planned), open_line.ending.breakable():
                 open_line.line.run(one.procedure(), self._tell)
         except KeyboardInterrupt:
             ended = 128 + (open_line.ending.number or signal.SIGINT)
         except LinkError as error:
-            self._finish(end_record(one.results, None, writes=one.writes, exit_code=LineError.code, complete=False))
-            left = LEFT_CHANGED if one.writes else LineError.code
-            words = "; the module may be left changed" if one.writes else ""
-            self._printer.error(f"{error}{words}: the report is incomplete")
-            return left
-        self._check = None
+            return self._lost(one, error)
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - first of all the module is restored
+            failure = error
+        self._stream.check = None
         settled = self._settle(open_line, one, before)
-        code = exit_code(one.results, strict=self._wishes.strict, known=self._settings.known)
-        code = LEFT_CHANGED if settled is None or not settled.is_as_before else ended or code
-        self._finish(end_record(one.results, settled, writes=one.writes, exit_code=code, complete=not ended))
-        self._summary(one, settled, code, ended)
-        if self._wishes.baseline_update and self._wishes.baseline is not None and not ended:
-            write_baseline(self._wishes.baseline, one.results)
-            return code if code != 1 else 0
+        left = self._left(one, settled)
+        if failure is not None:
+            return self._failed(one, settled, left, failure)
+        code = left or ended or self._code(one, settled)
+        self._stream.finish(end_record(one, settled, exit_code=code, complete=not ended))
+        self._screen.summary(one, settled)
+        self._what_is_left(settled, left)
+        if ended:
+            self._printer.error("INCOMPLETE: stopped before the end")
+        elif self._wishes.certify:
+            self._screen.word(code)
+        return self._written(code)
+
+    def _code(self, one: Run, settled: Settled | None) -> int:
+        """Return the exit code of what became of the checks, and update the baseline."""
+        wishes, baseline = self._wishes, self._settings.baseline
+        known = known_failures(one.results, baseline)
+        code = exit_code(one.results, strict=wishes.strict, known=known, asked=self._settings.asked)
+        if settled is not None and settled.restored and code == 0:
+            code = 1  # the checks put back what they change
+        if wishes.certify and code == 0 and not all(map(_is_decided, one.results)):
+            return _NOTHING
+        if wishes.baseline_update and wishes.baseline is not None and code in (0, 1):
+            try:
+                write_baseline(wishes.baseline, one.results, baseline)
+            except OSError as error:
+                self._stream.failure = self._stream.failure or error
+            return 0
+        return code
+
+    def _written(self, code: int) -> int:
+        """Return the exit code, worse if a report could not be written."""
+        failure = self._stream.failure
+        if failure is None:
+            return code
+        self._printer.error(f"{failure.filename}: {failure.strerror or failure}: this report is not complete")
+        return worst(code, _UNWRITABLE) if code <= LEFT_CHANGED else code
+
+    def _lost(self, one: Run, error: LinkError) -> int:
+        """End a run whose port is lost."""
+        code = LEFT_CHANGED if one.may_have_changed else LineError.code
+        self._stream.finish(end_record(one, None, exit_code=code, complete=False))
+        self._screen.summary(one, None)
+        self._printer.error(f"{error}: INCOMPLETE")
+        self._what_is_left(None, LEFT_CHANGED if one.may_have_changed else 0)
+        return self._written(code)
+
+    def _failed(self, one: Run, settled: Settled | None, left: int, failure: BaseException) -> int:
+        """End a run that this program, or its output, broke off."""
+        code = left or _INTERNAL
+        self._stream.finish(end_record(one, settled, exit_code=code, complete=False))
+        self._what_is_left(settled, left)
+        if not left and isinstance(failure, OSError | SystemExit):
+            raise failure
+        self._printer.error(f"internal error: {type(failure).__name__}: {failure}: INCOMPLETE")
         return code
 
     def _tell(self, told: object) -> None:
         if isinstance(told, Begun):
-            self._check = told.statement.id
+            self._stream.check = told.statement.id
+            self._screen.begin(told)
         elif isinstance(told, CheckResult):
-            self._record(check_record(told))
-            self._show(told)
+            self._stream.record(check_record(told))
+            self._screen.show(told)
+
+    # --- the module afterwards ------------------------------------------------------------------------------------
 
     def _settle(self, open_line: OpenLine, one: Run, before: Snapshot) -> Settled | None:
         """Restore the module; None if that was impossible."""
+        writing = bool(one.options.allowed & _STORED)
         try:
-            return open_line.line.run(settle(before, one.place, one.line))
-        except (LinkError, KeyboardInterrupt) as error:
+            settled = open_line.line.run(settle(before, one.place, one.line, home=one.twin, writing=writing))
+        except (I7000Error, KeyboardInterrupt) as error:
             self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None
+        one.writes += len(settled.restored)
+        return settled
 
-    # --- what people see ------------------------------------------------------------------------------------------
+    def _left(self, one: Run, settled: Settled | None) -> int:
+        """Return the exit code of how the module was left; 0 if it is as before."""
+        if settled is None or settled.silent:
+            return LEFT_CHANGED if one.may_have_changed else LineError.code
+        return LEFT_CHANGED if settled.left else 0
 
-    def _show(self, result: CheckResult) -> None:
-        if result.verdict is Verdict.SKIP and result.reason is SkipReason.NOT_APPLICABLE:
-            return
-        known = " (in the baseline)" if result.id in self._settings.known else ""
-        if self._wishes.quiet and (result.verdict in (Verdict.PASS, Verdict.SKIP, Verdict.INFO) or known):
-            return
-        spans: Line = [
-            (f"{result.id:{self._width}}", "cyan"),
-            ("  ", ""),
-            (f"{result.verdict.value:14}", STYLES[result.verdict]),
-            (f" {result.seconds * 1000:6.0f} ms  ", "dim"),
-            (", ".join(result.statement.sections), "dim"),
-            (known, ""),
-        ]
-        self._printer.lines([spans, *details(result)])
-        self._printer.flush()
-
-    def _summary(self, one: Run, settled: Settled | None, code: int, ended: int) -> None:
-        counts = Counter(result.verdict for result in one.results)
-        words = ", ".join(f"{counts[verdict]} {verdict.value}" for verdict in Verdict if counts[verdict])
-        lines: list[Line] = [[(words, "bold")]]
-        if one.writes:
-            lines.append([(f"{one.writes} frames may have changed the EEPROM (at most {one.options.writes})", "")])
-        if settled and settled.restored:
-            lines.append([(f"restored: {', '.join(settled.restored)}", "")])
-        self._printer.lines(lines)
+    def _what_is_left(self, settled: Settled | None, left: int) -> None:
+        """Report how the module was left, and what to do."""
         if settled and settled.silent:
             self._printer.error("the module does not answer any more")
         elif settled and settled.left:
             self._printer.error(f"left changed: {', '.join(settled.left)}")
-        if ended:
-            self._printer.error("INCOMPLETE: stopped before the end")
-        if self._wishes.certify:
-            self._printer.lines([[("PASSED" if code == 0 else "NOT PASSED", "bold")]])
+        elif left == LEFT_CHANGED:
+            self._printer.error("the module may be left changed")
+        if left == LEFT_CHANGED and self._kept:
+            words = f"i7000 restore {shlex.quote(self._asked.target)} {shlex.quote(self._kept)}"
+            self._printer.error(f"restore it with {words}")
+
+
+def _is_decided(result: CheckResult) -> bool:
+    """Return whether a check belongs to a whole run and ended with a verdict, or does not belong to it."""
+    return result.verdict is not Verdict.INCONCLUSIVE and result.reason not in _CUT_SHORT

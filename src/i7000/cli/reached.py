@@ -20,6 +20,7 @@ from i7000.cli.stored import stored_settings
 from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
+from i7000.conformance import GuardError
 from i7000.host.procedures import Identified, Procedure, identify
 from i7000.link import Line, LinkError, Observed, Port
 
@@ -73,7 +74,8 @@ def run(
     """Open the port of a module, do the work of a command, and return the exit code.
 
     Shape: `guard` returns the port that the line gets, such as a `GuardedPort` of the one that was opened.
-    Errors: `UsageError` for a text that is not a target; `LineError` for a port that cannot be opened or is lost.
+    Errors: `UsageError` for a text that is not a target, and for what a guard refuses; `LineError` for a port that
+        cannot be opened or is lost.
     """
     with broken_off_by_signals() as ending:
         try:
@@ -84,6 +86,8 @@ def run(
                 return body(OpenLine(line, ending))
         except LinkError as error:
             raise LineError(error) from None
+        except GuardError as error:
+            raise UsageError(error) from None
         except KeyboardInterrupt:
             return 128 + (ending.number or signal.SIGINT)
 

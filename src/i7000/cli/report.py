@@ -50,7 +50,6 @@ def report(  # noqa: PLR0913 - each of them is an option
     counts = (found.end or {}).get("counts")
     words = ", ".join(f"{count} {verdict}" for verdict, count in counts.items()) if isinstance(counts, dict) else ""
     printer.lines([*shown, [(words, "bold")]] if words else shown)
-    problems = found.problems if found.is_complete or found.problems else ("INCOMPLETE: stopped before the end",)
-    for problem in problems:
+    for problem in found.problems:
         printer.error(problem)
-    return 1 if verify and problems else 0
+    return 1 if verify and found.problems else 0

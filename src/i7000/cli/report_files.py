@@ -22,22 +22,22 @@ def write_report(lines: list[str], kind: str, path: str) -> None:
 
     Errors: `OSError`; `ReportError` for lines that are not a report.
     """
-    Path(path).write_bytes(MADE[kind](lines, path))
+    Path(path).write_bytes(MADE[kind](lines))
 
 
-def _page(lines: list[str], _: str) -> bytes:
+def _page(lines: list[str]) -> bytes:
     return page(read_report(lines)).encode("utf-8", "backslashreplace")
 
 
-def _junit(lines: list[str], _: str) -> bytes:
+def _junit(lines: list[str]) -> bytes:
     return junit(read_report(lines)).encode("utf-8", "backslashreplace")
 
 
-def _pytest(lines: list[str], path: str) -> bytes:
-    return pytest_file(read_report(lines), Path(path).name).encode("utf-8", "backslashreplace")
+def _pytest(lines: list[str]) -> bytes:
+    return pytest_file(read_report(lines)).encode("utf-8", "backslashreplace")
 
 
-def _capture(lines: list[str], _: str) -> bytes:
+def _capture(lines: list[str]) -> bytes:
     """Return a capture of all that was on the line."""
     report = read_report(lines)
     try:
@@ -52,7 +52,7 @@ def _capture(lines: list[str], _: str) -> bytes:
     return b"".join(parts)
 
 
-MADE: Mapping[str, Callable[[list[str], str], bytes]] = {
+MADE: Mapping[str, Callable[[list[str]], bytes]] = {
     "html": _page,
     "junit": _junit,
     "pytest": _pytest,

@@ -25,7 +25,7 @@ def statement(
 ) -> int:
     """Write a statement of what a module has: commands, functions, registers, types, and its reading of open points.
 
-    The module is asked for everything that the manual gives to any model; nothing is changed. Keep the statement with
+    Everything that the manual gives to any model is tried; nothing is changed. Keep the statement with
     the firmware: `i7000 check TARGET --statement FILE` compares the module with it, both ways, and checks what it
     claims, also of modules that the manual does not know. A statement is JSON on standard output.
 

@@ -66,6 +66,11 @@ class Printer:
 
         return Console(highlight=False, stderr=True)
 
+    @property
+    def is_interactive(self) -> bool:
+        """Whether standard error is a terminal, on which progress can be drawn."""
+        return sys.stderr is not None and sys.stderr.isatty()
+
     def record(self, record: Record, lines: Iterable[Line]) -> None:
         """Print a record: as it is, or in lines for people."""
         if self.json:

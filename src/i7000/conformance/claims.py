@@ -1,6 +1,6 @@
 """What a module has, as a statement that a program can read: found by asking it, and held against it later.
 
-Laws: a statement is never filled up with defaults: what is not in it is not claimed. Only reads are asked for, so that
+Laws: a statement is never filled up with defaults: what is not in it is not claimed. Only reads are sent, so that
 making one changes nothing.
 """
 
@@ -182,7 +182,7 @@ def _rows_of_all() -> Iterable[Register]:
 
 
 def has(module: Subject, query: Query[Any]) -> Procedure[bool]:
-    """Ask for something, and return whether the module has it; a refusal, an exception and silence say that not."""
+    """Request something, and return whether the module has it; a refusal, an exception and silence say that not."""
     wire = module.wire(query)
     heard = (yield from module.send(wire, seconds=0.2)).wire
     decode: Any = modbus.decode_response if isinstance(query, modbus.Request) else dcon.decode_response

@@ -5,11 +5,13 @@ from collections.abc import Iterator
 from shlex import quote
 from xml.etree import ElementTree as ET
 
-from i7000.conformance.report import Checked, Report
+from i7000.conformance.report import Checked, Report, texts
 from i7000.conformance.verdict import Verdict
+from i7000.models import Model
 
 __all__ = ["junit", "pytest_file", "reproduction"]
 
+_MODELS = frozenset(model.value for model in Model)
 _FAILURES = frozenset({Verdict.FAIL.value, Verdict.FLAKY.value, Verdict.PASS_GOOD_ONLY.value})
 _SKIPPED = frozenset({Verdict.SKIP.value, Verdict.INCONCLUSIVE.value, Verdict.INFO.value})
 _UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -27,16 +29,22 @@ def reproduction(report: Report, check_id: str) -> str:
         words.append(f"--baud {baud}")
     if isinstance(form, str) and form != "N81":
         words.append(f"--character-format {form}")
-    allowed = report.start.get("allowed")
-    harmful = [name for name in allowed if name not in ("observe", "memory")] if isinstance(allowed, list) else []
-    words += [f"--allow {name}" for name in harmful]
+    allowed = texts(report.start, "allowed")
+    harmful = [name for name in allowed if name not in ("observe", "memory", *(["write"] if "comm" in allowed else []))]
+    words += [f"--allow {quote(name)}" for name in harmful]
     if "comm" in harmful:
         words.append("--i-can-power-cycle")
     if "calibration" in harmful:
         words.append(f"--confirm {quote(str(module.get('name')))}")
-    seed = report.start.get("seed")
+    seed, scale, model = (report.start.get(name) for name in ("seed", "timeout_scale", "given_model"))
     if isinstance(seed, int) and seed:
         words.append(f"--seed {seed}")
+    if isinstance(scale, int | float) and scale != 1:
+        words.append(f"--timeout-scale {scale:g}")
+    if isinstance(model, str):
+        words.append(f"--model {quote(model)}")
+    if report.start.get("echo") is True:
+        words.append("--echo")
     return " ".join(words)
 
 
@@ -54,7 +62,7 @@ def junit(report: Report) -> str:
     for check in report.checks:
         by_group.setdefault(check.id.partition("/")[0], []).append(check)
     for group, checks in by_group.items():
-        suite = ET.SubElement(suites, "testsuite", {"name": f"i7000.{group}", **_counts(checks)})
+        suite = ET.SubElement(suites, "testsuite", {"name": _printable(f"i7000.{group}"), **_counts(checks)})
         properties = ET.SubElement(suite, "properties")
         for name, value in _properties(report):
             ET.SubElement(properties, "property", name=name, value=_printable(value))
@@ -92,8 +100,8 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
     case = ET.SubElement(
         suite,
         "testcase",
-        classname=f"i7000.{group}",
-        name=name,
+        classname=_printable(f"i7000.{group}"),
+        name=_printable(name),
         time=f"{seconds:.3f}" if isinstance(seconds, int | float) else "0",
     )
     if check.verdict in _FAILURES or check.verdict == Verdict.ERROR.value:
@@ -106,7 +114,7 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
 
 
 def _words(check: Checked, report: Report) -> Iterator[str]:
-    yield f"required: {check['requirement']} (manual {', '.join(map(str, check['sections'] or ()))})"
+    yield f"required: {check['requirement']} (manual {', '.join(check.texts('sections'))})"
     for name in ("sent", "received", "expected"):
         if check[name] is not None:
             yield f"{name}: {check[name]}"
@@ -120,9 +128,9 @@ def _printable(text: str) -> str:
 
 # --- pytest -----------------------------------------------------------------------------------------------------------
 
-_HEAD = '''"""The checks that {what} did not pass, as tests: ``pytest {name}``.
+_HEAD = '''"""The checks that {what} did not pass, as tests for pytest.
 
-They need the target {target}; the environment variable I7000_TARGET names another one.
+They need the module at `TARGET`; the environment variable I7000_TARGET names another one.
 """
 
 import os
@@ -145,16 +153,15 @@ def test_the_module_passes(check: str) -> None:
 '''
 
 
-def pytest_file(report: Report, name: str) -> str:
-    """Return a file for pytest that repeats what did not pass; `name` is that of the file."""
+def pytest_file(report: Report) -> str:
+    """Return a file for pytest that repeats what did not pass."""
     failed = [check.id for check in report.checks if check.verdict in _FAILURES]
     target = str(report.start.get("target"))
     options = reproduction(report, "").removeprefix(f"i7000 check {quote(target)} ").strip()
-    model = report.module.get("model")
+    model = str(report.module.get("model"))
     rows = "".join(f"    {check!r},\n" for check in failed)
     return _HEAD.format(
-        what=model if isinstance(model, str) else "the module",
-        name=name,
+        what=model if model in _MODELS else "the module",
         target=target,
         options=options,
         failed=f"[\n{rows}]" if rows else "[]",

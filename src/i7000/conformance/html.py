@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import Any
 
-from i7000.conformance.report import Checked, Frame, Report
+from i7000.conformance.exports import reproduction
+from i7000.conformance.report import Checked, Frame, Report, texts
 from i7000.conformance.verdict import SkipReason, Verdict
 
 __all__ = ["page"]
@@ -40,14 +41,16 @@ p { margin: .25rem 0; overflow-wrap: anywhere; } a { color: inherit; }
 .banner { border-left: .4rem solid var(--pass); background: var(--card); padding: .75rem 1rem; margin: 1rem 0;
   color: var(--ink); }
 .banner.fail { border-color: var(--fail); } .banner.warn { border-color: var(--warn); }
-.banner b { font-size: 1.15rem; }
+.banner b { font-size: 1.15rem; } .banner p + p { color: var(--ink); }
+mark { background: var(--fail); color: var(--paper); padding: 0 .1rem; }
+h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
 table { border-collapse: collapse; width: 100%; } th, td { text-align: left; vertical-align: top; padding: .3rem .5rem;
   border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
 th { font-weight: 600; overflow-wrap: normal; } .facts th { width: 8rem; }
 .scroll { overflow-x: auto; }
 .v { font-weight: 600; white-space: nowrap; } .pass { color: var(--pass); } .fail { color: var(--fail); }
 .warn { color: var(--warn); } .info { color: var(--info); } .skip { color: var(--skip); }
-.matrix { display: grid; grid-template-columns: repeat(auto-fill, minmax(11rem, 1fr)); gap: .4rem; }
+.matrix { display: grid; grid-template-columns: repeat(auto-fill, minmax(11rem, 1fr)); gap: .4rem; align-items: start; }
 .matrix div { border: 1px solid var(--line); border-radius: .3rem; padding: .3rem .5rem; background: var(--card); }
 .matrix a { text-decoration: none; font-size: 1.1rem; } .matrix b { margin-right: .3rem; }
 details { border: 1px solid var(--line); border-radius: .3rem; margin: .35rem 0; background: var(--card); }
@@ -56,7 +59,10 @@ summary .v { min-width: 8.5rem; } summary .id { font-family: ui-monospace, monos
   overflow-wrap: anywhere; } .body { padding: 0 .8rem .8rem; }
 @media (max-width: 40rem) { body { padding: .75rem; font-size: 15px; } summary .v { min-width: 0; }
   .log tr { display: block; border-bottom: 1px solid var(--line); } .log td { display: block;
-  border: 0; padding: .1rem .3rem; } .log th, .log td.at { display: none; } }
+  border: 0; padding: .1rem .3rem; } .log th, .log td.at { display: none; }
+  .stack tr { display: block; border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .stack td { display: block; border: 0; padding: .05rem .3rem; } .stack th { display: none; }
+  .facts th { width: 5.5rem; } .matrix { grid-template-columns: 1fr 1fr; } }
 @media print { body { max-width: none; font-size: 11px; } details { break-inside: avoid; border: 0; }
   .matrix { grid-template-columns: repeat(6, 1fr); } }
 """
@@ -98,17 +104,19 @@ def _protocol(report: Report) -> str:
 def _head(report: Report, title: str) -> Iterator[str]:
     counts = Counter(check.verdict for check in report.checks)
     bad = sum(counts[verdict] for verdict in _OPEN)
-    left = (report.end or {}).get("left_changed")
+    left, restored = (texts(report.end or {}, name) for name in ("left_changed", "restored"))
     words, kind = ("all that ran passed", "pass") if counts[Verdict.PASS.value] else ("nothing was decided", "warn")
     if bad:
         words, kind = f"{bad} of {len(report.checks)} checks did not pass", "fail"
     if left:
-        words, kind = f"the module was left changed: {', '.join(map(str, left))}", "fail"
+        words, kind = f"the module was left changed: {', '.join(left)}", "fail"
+    elif (report.end or {}).get("silent") is True:
+        words, kind = "the module does not answer any more", "fail"
     if not report.is_complete:
         words, kind = f"INCOMPLETE: {words}", "warn" if kind == "pass" else kind
     yield f"<h1>{escape(title)}</h1>"
     start = report.start
-    allowed = ", ".join(map(str, start.get("allowed") or ()))
+    allowed = ", ".join(texts(start, "allowed"))
     versions = f"i7000 {_of(start, 'version')}; manual {_of(start, 'manual')}"
     facts = (
         f"firmware {_of(report.module, 'firmware')}, {_protocol(report)}, {_of(start, 'target')}",
@@ -118,6 +126,8 @@ def _head(report: Report, title: str) -> Iterator[str]:
     yield from (f'<p class="soft">{escape(fact)}</p>' for fact in facts)
     shown = ", ".join(f"{counts[it.value]} {it.value}" for it in Verdict if counts[it.value])
     yield f'<div class="banner {kind}"><p><b>{escape(words)}</b></p><p>{escape(shown)}</p>'
+    if restored:
+        yield f"<p>restored: {escape(', '.join(restored))}</p>"
     yield from (f'<p class="warn">{escape(problem)}</p>' for problem in report.problems)
     yield "</div>"
 
@@ -134,7 +144,8 @@ def _failures(report: Report) -> Iterator[str]:
     failed = [check for check in report.checks if check.verdict in _OPEN or check.verdict == Verdict.WARN.value]
     if not failed:
         return
-    yield '<h2>What did not pass</h2><div class="scroll"><table><tr><th>verdict</th><th>check</th><th>why</th></tr>'
+    yield '<h2>What did not pass</h2><div class="scroll"><table class="stack">'
+    yield "<tr><th>verdict</th><th>check</th><th>why</th></tr>"
     for check in failed:
         link = f'<a href="#{_anchor(check.id)}"><code>{escape(check.id)}</code></a>'
         yield f"<tr><td>{_verdict(check.verdict)}</td><td>{link}</td><td>{escape(str(check['text'] or ''))}</td></tr>"
@@ -149,8 +160,8 @@ def _matrix(report: Report) -> Iterator[str]:
     by_section: dict[str, list[Checked]] = {}
     for check in report.checks:
         if not _is_foreign(check):
-            for section in check["sections"] or ():
-                by_section.setdefault(str(section), []).append(check)
+            for section in check.texts("sections"):
+                by_section.setdefault(section, []).append(check)
     yield "<h2>By section of the manual</h2><p class=soft>&#10003; passed, &#10007; failed, ! see there,"
     yield " i open point, &#183; not carried out</p>"
     yield '<div class="matrix">'
@@ -168,7 +179,7 @@ def _mark(check: Checked) -> str:
 
 
 def _in_order(section: str) -> list[tuple[int, int, str]]:
-    return [(part.isdecimal(), int(part) if part.isdecimal() else 0, part) for part in section.split(".")]
+    return [(not part.isdecimal(), int(part) if part.isdecimal() else 0, part) for part in section.split(".")]
 
 
 def _is_foreign(check: Checked) -> bool:
@@ -180,10 +191,10 @@ def _open_points(report: Report) -> Iterator[str]:
     points = [check for check in report.checks if check.verdict == Verdict.INFO.value]
     if not points:
         return
-    yield '<h2>Open points of the manual</h2><div class="scroll"><table>'
+    yield '<h2>Open points of the manual</h2><div class="scroll"><table class="stack">'
     yield "<tr><th>check</th><th>what the module does</th><th>errata</th></tr>"
     for check in points:
-        errata = ", ".join(map(str, check["errata"] or ()))
+        errata = ", ".join(check.texts("errata"))
         yield (
             f"<tr><td><code>{escape(check.id)}</code></td><td>{escape(str(check['text'] or ''))}</td>"
             f"<td>{escape(errata)}</td></tr>"
@@ -196,9 +207,13 @@ def _open_points(report: Report) -> Iterator[str]:
 
 def _checks(report: Report) -> Iterator[str]:
     yield "<h2>The checks</h2>"
+    group = ""
     for check in report.checks:
         if not _is_foreign(check):
-            yield from _check(check)
+            if group != check.id.partition("/")[0]:
+                group = check.id.partition("/")[0]
+                yield f"<h3>{escape(group)}</h3>"
+            yield from _check(report, check)
     foreign = [check for check in report.checks if _is_foreign(check)]
     if foreign:
         yield f"<details><summary>{len(foreign)} checks of what the module does not have</summary><div class=body><p>"
@@ -206,39 +221,59 @@ def _checks(report: Report) -> Iterator[str]:
         yield "</p></div></details>"
 
 
-def _check(check: Checked) -> Iterator[str]:
+def _check(report: Report, check: Checked) -> Iterator[str]:
     opened = " open" if check.verdict in _OPEN else ""
     yield f'<details id="{_anchor(check.id)}"{opened}><summary>{_verdict(check.verdict)}'
     yield f'<span class="id">{escape(check.id)}</span><span>{escape(str(check["title"] or ""))}</span></summary>'
     yield '<div class="body">'
-    sections = ", ".join(map(str, check["sections"] or ()))
+    sections = ", ".join(check.texts("sections"))
     yield f"<p>{escape(str(check['requirement'] or ''))}</p>"
-    errata = ", ".join(map(str, check["errata"] or ()))
+    errata = ", ".join(check.texts("errata"))
     about = f"manual {sections}; {check['level']}{f'; {errata}' if errata else ''}"
     yield f'<p class="soft">{escape(about)}</p>'
-    rows = [
-        (name, check[name]) for name in ("text", "reason", "sent", "received", "expected") if check[name] is not None
-    ]
+    rows = [*_facts(check)]
+    if check.verdict in _OPEN:
+        rows.append(("repeat", f"<code>{escape(reproduction(report, check.id))}</code>"))
     if rows:
         yield '<table class="facts">'
-        for name, value in rows:
-            shown = escape(_shown(name, str(value)))
-            yield f"<tr><th>{'why' if name == 'text' else name}</th><td>{shown}</td></tr>"
+        yield from (f"<tr><th>{name}</th><td>{shown}</td></tr>" for name, shown in rows)
         yield "</table>"
     yield from _log(check.frames)
     yield "</div></details>"
 
 
-def _shown(name: str, value: str) -> str:
-    return _wire(bytes.fromhex(value)) if name in ("sent", "received") and _is_hex(value) else value
+def _facts(check: Checked) -> Iterator[tuple[str, str]]:
+    """Yield what decided a check: names, and what is shown for them."""
+    for name, title in (("text", "why"), ("reason", "reason")):
+        if check[name] is not None:
+            yield title, escape(str(check[name]))
+    sent, received, right = (_bytes(check[name]) for name in ("sent", "received", "right"))
+    if sent is not None:
+        yield "sent", f"<code>{escape(_wire(sent))}</code>"
+    if received is not None:
+        yield "received", f"<code>{_marked(received, right)}</code>"
+    if check["expected"] is not None:
+        yield "expected", escape(str(check["expected"]))
+    if repeats := check.texts("repeats"):
+        yield "repeated", escape(", ".join(repeats))
 
 
-def _is_hex(text: str) -> bool:
+def _bytes(value: object) -> bytes | None:
+    """Return the bytes of a field; None if it has none."""
     try:
-        bytes.fromhex(text)
+        return bytes.fromhex(value) if isinstance(value, str) else None
     except ValueError:
-        return False
-    return True
+        return None
+
+
+def _marked(wire: bytes, right: bytes | None) -> str:
+    """Return bytes with a mark at the first one that is not right."""
+    pairs = zip(wire, right, strict=False) if right else ()
+    at = next((at for at, (found, wanted) in enumerate(pairs) if found != wanted), None)
+    if at is None:
+        return escape(_wire(wire))
+    hexes = [f"<mark>{byte:02x}</mark>" if place == at else f"{byte:02x}" for place, byte in enumerate(wire)]
+    return escape(_wire(wire)).replace(wire.hex(" "), " ".join(hexes), 1)
 
 
 def _wire(wire: bytes) -> str:

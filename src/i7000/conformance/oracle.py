@@ -24,7 +24,7 @@ from i7000.readings import Reading, Status
 from i7000.settings import DataFormat, Protocol
 from i7000.type_codes import MIXED
 
-__all__ = ["Answer", "Twin", "difference", "eeprom_of", "rows_of"]
+__all__ = ["Answer", "Twin", "difference", "eeprom_of", "is_exact", "rows_of"]
 
 
 # --- the settings of a snapshot ---------------------------------------------------------------------------------------
@@ -149,6 +149,29 @@ def difference(answer: Answer, heard: bytes) -> str | None:
     return "another answer" if answer.query is None else _decoded_difference(answer, answer.query, answer.wire, heard)
 
 
+def is_exact(answer: Answer) -> bool:
+    """Return whether only the bytes of the twin are allowed: nothing in them is measured, remembered or open."""
+    query: Any = answer.query
+    if query is None:
+        return True
+    if isinstance(query, modbus.Request):
+        if issubclass(query.response, (*_ANY_OF_ITS_FIELDS, modbus.ChannelMask)):
+            return False
+        first, places = getattr(query, "first_item", None), _places(answer.profile.model, _firmware(answer.profile))
+        return (
+            first is None
+            or query.response.area is None
+            or not any(_varies(places[query.response.area].get(first + at)) for at in range(getattr(query, "count", 1)))
+        )
+    return not issubclass(query.response, (*_READINGS, dcon.AnalogInput, *_UNKNOWN))
+
+
+def _varies(place: tuple[Register, int] | None) -> bool:
+    return place is not None and (
+        place[0].kind in (Kind.READING, Kind.RECORD, Kind.INT8) or place[0].name in _REMEMBERED
+    )
+
+
 def _decoded_difference(answer: Answer, query: Query[Any], right: bytes, heard: bytes) -> str | None:
     of_modbus = isinstance(query, modbus.Request)
     decode: Any = modbus.decode_response if of_modbus else dcon.decode_response
@@ -170,8 +193,11 @@ _UNKNOWN = (dcon.CjcTemperature, dcon.Diagnostics, dcon.HostWatchdogStatus, dcon
 """The responses that depend on what the module measures or remembers since its power-on."""
 
 
+_READINGS = (dcon.AnalogInputs, dcon.AnalogInputsHex, dcon.SynchronizedData)
+
+
 def _dcon_difference(answer: Answer, response: Response, expected: Response) -> str | None:
-    if isinstance(response, dcon.AnalogInputs | dcon.AnalogInputsHex | dcon.SynchronizedData):
+    if isinstance(response, _READINGS):
         channels = range(len(response.values))
         return _readings_difference(answer, lambda: readings_of(response, answer.profile), channels)
     if isinstance(response, dcon.AnalogInput):

@@ -11,7 +11,7 @@ from hashlib import sha256
 from typing import Any
 
 from i7000.conformance.hazard import Hazard
-from i7000.conformance.run import CheckResult
+from i7000.conformance.run import CheckResult, Options, Run
 from i7000.conformance.settle import Settled
 from i7000.conformance.verdict import Verdict
 from i7000.host.procedures import Snapshot
@@ -43,17 +43,17 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
     spec_sha256: str,
     time: str,
     target: str,
-    seed: int,
-    allowed: Iterable[Hazard],
+    options: Options,
     selection: Iterable[str],
     checks: int,
     snapshot: Snapshot,
     address: int,
     line: LineSettings,
     checksum: bool,
+    echo: bool = False,
+    given_model: str | None = None,
 ) -> Record:
-    """Return the first line."""
-    permitted = frozenset(allowed)
+    """Return the first line; `given_model` is the model that the user says it is, instead of the module."""
     return {
         "record": "run-start",
         "schema_version": SCHEMA_VERSION,
@@ -62,8 +62,13 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "manual": MANUAL,
         "time": time,
         "target": target,
-        "seed": seed,
-        "allowed": [hazard.value for hazard in Hazard if hazard in permitted],
+        "given_model": given_model,
+        "echo": echo,
+        "seed": options.seed,
+        "timeout_scale": options.timeout_scale,
+        "eeprom_writes": options.writes,
+        "max_seconds": options.seconds,
+        "allowed": [hazard.value for hazard in Hazard if hazard in options.allowed],
         "selection": list(selection),
         "checks": checks,
         "module": {
@@ -110,6 +115,8 @@ def check_record(result: CheckResult) -> Record:
     for name, wire in (("sent", result.sent), ("received", result.received)):
         if result.text and (result.sent or result.received):
             record[name] = wire.hex()
+    if result.right:
+        record["right"] = result.right.hex()
     if result.repeats:
         record["repeats"] = [verdict.value for verdict in result.repeats]
     if result.writes:
@@ -117,17 +124,16 @@ def check_record(result: CheckResult) -> Record:
     return record
 
 
-def end_record(
-    results: Iterable[CheckResult], settled: Settled | None, *, writes: int, exit_code: int, complete: bool
-) -> Record:
-    """Return the last line, without its digest."""
-    counts = Counter(result.verdict for result in results)
+def end_record(run: Run, settled: Settled | None, *, exit_code: int, complete: bool) -> Record:
+    """Return the last line of a run, without its digest."""
+    counts = Counter(result.verdict for result in run.results)
+    restored = [*run.restored, *(settled.restored if settled else ())]
     return {
         "record": "run-end",
         "complete": complete,
         "counts": {verdict.value: counts[verdict] for verdict in Verdict if counts[verdict]},
-        "writes": writes,
-        "restored": list(settled.restored) if settled else None,
+        "writes": run.writes,
+        "restored": list(dict.fromkeys(restored)),
         "left_changed": list(settled.left) if settled else None,
         "silent": settled.silent if settled else None,
         "exit_code": exit_code,

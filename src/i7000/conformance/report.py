@@ -20,9 +20,15 @@ from i7000.profile import Profile
 from i7000.settings import Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["Checked", "Frame", "Report", "ReportError", "read_report"]
+__all__ = ["Checked", "Frame", "Report", "ReportError", "read_report", "texts"]
 
 _PROTOCOLS = {protocol.name.lower(): protocol for protocol in Protocol}
+
+
+def texts(record: dict[str, Any], name: str) -> list[str]:
+    """Return the texts of a list that a record has under a name; none if it is not a list."""
+    found = record.get(name)
+    return [*map(str, found)] if isinstance(found, list) else []
 
 
 class ReportError(I7000Error):
@@ -53,6 +59,10 @@ class Checked:
         """Return what the record has under a name; None without it."""
         return self.record.get(name)
 
+    def texts(self, name: str) -> list[str]:
+        """Return the list that the record has under a name; an empty one without it."""
+        return texts(self.record, name)
+
 
 @frozen
 class Report:
@@ -71,8 +81,8 @@ class Report:
     @property
     def module(self) -> dict[str, Any]:
         """What the run was about."""
-        module: dict[str, Any] = self.start.get("module", {})
-        return module
+        module = self.start.get("module")
+        return module if isinstance(module, dict) else {}
 
 
 def read_report(lines: Iterable[str]) -> Report:
@@ -133,7 +143,10 @@ class _Records:
         """Yield what is wrong with the end."""
         if self.end is None:
             yield "INCOMPLETE: the last line is missing"
-        elif self.end.get("digest") != self._digest.hexdigest():
+            return
+        if self.end.get("complete") is not True:
+            yield "INCOMPLETE: stopped before the end"
+        if self.end.get("digest") != self._digest.hexdigest():
             yield "changed after it was written: the digest is that of other lines"
 
 
@@ -150,8 +163,7 @@ def _object(text: str) -> dict[str, Any] | None:
 
 def _listener(start: dict[str, Any]) -> Line:
     """Return the listener of a report, which knows the module; one that knows nothing if the report is odd."""
-    module = start.get("module")
-    module = module if isinstance(module, dict) else {}
+    module = Report(start, (), None, ()).module
     protocol = _PROTOCOLS.get(str(module.get("protocol")), Protocol.DCON)
     model = next((it for it in Model if it.value == module.get("model")), None)
     settings = module.get("settings")

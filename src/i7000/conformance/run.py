@@ -19,18 +19,19 @@ from i7000.conformance.claims import Claims
 from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
+from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Difference, Reason, Skipped, SkipReason, Verdict
-from i7000.device import Eeprom
+from i7000.device import Eeprom, State
 from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
-from i7000.host.procedures import BytesHeard, Procedure, Result, Tell
+from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snapshot, Tell, Tune
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
-__all__ = ["Begun", "CheckResult", "Options", "Planned", "Run", "exit_code", "plan", "selected"]
+__all__ = ["Begun", "CheckResult", "Options", "Planned", "Run", "asked_for", "exit_code", "plan", "selected", "worst"]
 
 _MOST_REPEATS = 2
 """How often a check that only reads is repeated when it does not pass."""
@@ -85,6 +86,8 @@ class CheckResult:
     """The verdicts of the repetitions."""
     writes: int = 0
     """The frames of it that may have changed the EEPROM."""
+    right: bytes = b""
+    """The only bytes that were allowed, if there are such."""
 
     @property
     def id(self) -> str:
@@ -105,6 +108,14 @@ def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> f
     >>> sorted(selected(spec.statements(), ["link"]))[0]
     'link/alive'
     """
+    return frozenset(_completed(set(asked_for(known, selection)), known))
+
+
+def asked_for(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> frozenset[str]:
+    """Return the ids that texts name, without what those need.
+
+    Errors: as for `selected`.
+    """
     texts = tuple(selection)
     found = set() if texts else set(known)
     for text in texts:
@@ -114,7 +125,7 @@ def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> f
             allowed = "the id of a check, a group, a pattern such as dcon/2.1*, or a section of the manual"
             raise InvalidValueError("select", text, f"{allowed}; near it: {near}" if near else allowed, "")
         found |= matching
-    return frozenset(_completed(found, known))
+    return frozenset(found)
 
 
 def _matches(statement: Statement, text: str) -> bool:
@@ -198,27 +209,42 @@ def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
 
 
 class Run:
-    """A run of a plan on a module with these settings; `line` and `checksum` are those that it answers with now."""
+    """A run of a plan on a module with these settings; `line` and `checksum` are those that it answers with now.
 
-    def __init__(
-        self, planned: Sequence[Planned], eeprom: Eeprom, options: Options, *, line: LineSettings, checksum: bool
+    Shape: `before` are the settings that are restored if a check does not restore what it changed; None leaves that to
+        the caller. `init_mode` is whether the module is in INIT mode.
+    """
+
+    def __init__(  # noqa: PLR0913 - each of them is a fact
+        self,
+        planned: Sequence[Planned],
+        eeprom: Eeprom,
+        options: Options,
+        *,
+        line: LineSettings,
+        checksum: bool,
+        before: Snapshot | None = None,
+        init_mode: bool = False,
     ) -> None:
-        self.planned, self.options, self.line = tuple(planned), options, line
-        twin = Twin.of(eeprom, 0.0)
+        self.planned, self.options, self.line, self.before = tuple(planned), options, line, before
+        twin = Twin.of(eeprom, 0.0, init_switch=init_mode)
         self.twin = Twin(twin.state.keep(checksum=checksum, line_settings=line))
         self.results: list[CheckResult] = []
-        self.now: float | None = None
-        self.began: float | None = None
+        self.now = self.began = 0.0
         self.writes = 0
         """The frames so far that may have changed the EEPROM."""
         self.guard = Guard(options.allowed)
         """What was sent so far; as strict as the guard of the port."""
+        self.may_have_changed = False
+        """Whether a check was begun that changes settings."""
+        self.restored: list[str] = []
+        """The settings that had to be restored between checks."""
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
+        self._stopped: Skipped | None = None
         self._answering = False
         """Whether the module answered what was sent last."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
-        self._planned = {it.statement.id for it in planned}
         self._verdicts: dict[str, Verdict] = {}
 
     def procedure(self) -> Procedure[None]:
@@ -226,9 +252,11 @@ class Run:
 
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
-        first = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
-        yield from first.end_line()
-        self.guard = first.guard
+        first: BytesHeard = yield SendBytes((), 0.0)
+        self.now = self.began = first.now
+        opening = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
+        yield from opening.end_line()
+        self.guard = opening.guard
         for group in _halves(self.planned):
             yield from self.checks(group)
 
@@ -256,7 +284,7 @@ class Run:
             yield Tell(result)
 
     def _check(self, one: Planned) -> Procedure[CheckResult]:
-        skip = one.skip or self._prerequisite(one.statement) or self._over()
+        skip = one.skip or self._stopped or self._prerequisite(one.statement) or self._over()
         if skip:
             return CheckResult(one.statement, Verdict.SKIP, text=skip.text, reason=skip.reason)
         answering = self._answering
@@ -266,8 +294,12 @@ class Run:
         again: tuple[Verdict, ...] = ()
         while len(again) < _MOST_REPEATS:
             again += ((yield from self._once(one.statement, answering=answering)).verdict,)
-        verdict = result.verdict if set(again) == {result.verdict} else Verdict.FLAKY
-        return evolve(result, verdict=verdict, repeats=again)
+        if set(again) != {result.verdict}:
+            return evolve(result, verdict=Verdict.FLAKY, repeats=again)
+        if result.verdict is Verdict.INCONCLUSIVE and answering and self._answering:
+            text = f"{result.text}, each of {1 + len(again)} times, though it answers before and later"
+            return evolve(result, verdict=Verdict.FAIL, text=text, repeats=again)
+        return evolve(result, repeats=again)
 
     def _prerequisite(self, statement: Statement) -> Skipped | None:
         for needed in statement.needs:
@@ -279,37 +311,22 @@ class Run:
 
     def _over(self) -> Skipped | None:
         limit = self.options.seconds
-        if limit is not None and self.now is not None and self.began is not None and self.now - self.began > limit:
+        if limit is not None and self.now - self.began > limit:
             return Skipped(SkipReason.BUDGET, f"the {limit:g} s of the run are over")
         return None
 
     def _once(self, statement: Statement, *, answering: bool) -> Procedure[CheckResult]:
         subject = self._subject(Random(f"{self.options.seed} {statement.id}"))  # noqa: S311 - repeatable
         subject.answering = answering
-        before = subject.writes_left
-        heard = False
-        answer: object = None
+        budget = subject.writes_left
+        self.may_have_changed |= bool(statement.hazards & _STORED)
         started = self.now
-        steps = STEPS[statement.id](subject)
-        refusal: I7000Error | None = None
+        heard: list[object] = []
         verdict, reason = Verdict.PASS, None
+        steps = STEPS[statement.id](subject)
         try:
-            while True:
-                step = steps.throw(refusal) if refusal else steps.send(answer)
-                refusal = None
-                self.place = subject.twin
-                try:
-                    answer = yield step
-                except I7000Error as error:
-                    answer, refusal = None, error
-                heard = heard or _is_evidence(answer)
-                if isinstance(answer, BytesHeard):
-                    self.now = answer.now
-                    self._answering = bool(answer.wire)
-                    self.began = answer.now if self.began is None else self.began
-                    started = answer.now if started is None else started
-        except StopIteration:
-            if not heard:
+            yield from self._steps(steps, subject, heard)
+            if not any(map(_is_evidence, heard)):
                 verdict, reason = Verdict.INCONCLUSIVE, Reason("nothing was received")
         except GuardError as error:
             verdict, reason = Verdict.SKIP, Skipped(SkipReason.HAZARD, str(error))
@@ -317,15 +334,74 @@ class Run:
             verdict, reason = Verdict.INFO if statement.level is Level.OPEN else Verdict.FAIL, difference
         except Reason as other:
             verdict, reason = other.verdict, other
+        except Exception as error:  # noqa: BLE001 - a fault of this program must not keep the module from being restored
+            verdict, reason = Verdict.ERROR, Reason(_internal(error))
         finally:
             steps.close()
             self.guard = subject.guard
-        writes = before - subject.writes_left
-        self.writes += writes
-        seconds = 0.0 if started is None or self.now is None else self.now - started
+            writes = budget - subject.writes_left
+            self.writes += writes
+        seconds = self.now - started
+        yield from self._back(statement, subject, verdict)
         return _result(statement, verdict, reason, seconds, writes)
 
+    def _steps(self, steps: Procedure[None], subject: Subject, heard: list[object]) -> Procedure[None]:
+        """Carry out the steps of a check, and collect what they receive; what the port refuses is raised in them."""
+        answer: object = None
+        refusal: I7000Error | None = None
+        while True:
+            try:
+                step = steps.throw(refusal) if refusal else steps.send(answer)
+            except StopIteration:
+                return
+            answer = refusal = None
+            self.place = subject.twin
+            try:
+                answer = yield step
+            except I7000Error as error:
+                refusal = error
+            heard.append(answer)
+            if isinstance(answer, BytesHeard):
+                self.now = answer.now
+                self._answering = bool(answer.wire)
 
+    def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
+        """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
+        failed = verdict is Verdict.ERROR and bool(statement.hazards & _STORED)
+        elsewhere = _whereabouts(subject.twin.state) != _whereabouts(self.twin.state)
+        if self.before is not None and (failed or elsewhere):
+            try:
+                settled = yield from settle(self.before, subject.twin, self.line, home=self.twin)
+            except I7000Error as error:
+                self._stopped = Skipped(SkipReason.PREREQUISITE, f"{statement.id} left the module changed: {error}")
+                return
+            self.writes += len(settled.restored)
+            self.restored += settled.restored
+            if not settled.is_as_before:
+                what = ", ".join(settled.left) or "it does not answer"
+                self._stopped = Skipped(SkipReason.PREREQUISITE, f"{statement.id} left the module changed: {what}")
+                return
+        elif subject.line != self.line:
+            yield Tune(self.line)
+        self.place = self.twin
+
+
+def _whereabouts(state: State) -> tuple[object, ...]:
+    """Return the settings of a module, and how it is spoken to."""
+    ram = state.ram
+    return state.eeprom, ram.address, ram.line_settings, ram.checksum, ram.protocol, ram.init_mode
+
+
+def _internal(error: Exception) -> str:
+    """Return what went wrong in this program, and where."""
+    place = error.__traceback__
+    while place is not None and place.tb_next is not None:
+        place = place.tb_next
+    where = "" if place is None else f" ({place.tb_frame.f_code.co_name}, line {place.tb_lineno})"
+    return f"internal error: {type(error).__name__}: {error}{where}"
+
+
+_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _READS = frozenset({Hazard.OBSERVE, Hazard.MEMORY})
 _REPEATED = frozenset({Verdict.FAIL, Verdict.INCONCLUSIVE, Verdict.WARN})
 _GOOD = frozenset({Verdict.PASS, Verdict.PASS_GOOD_ONLY, Verdict.INFO, Verdict.WARN})
@@ -358,21 +434,29 @@ def _result(statement: Statement, verdict: Verdict, reason: Reason | None, secon
         reason.received,
         reason.expected,
         writes=writes,
+        right=reason.right,
     )
 
 
 # --- the end ----------------------------------------------------------------------------------------------------------
 
 
-def exit_code(results: Iterable[CheckResult], *, strict: bool = False, known: Iterable[str] = ()) -> int:
-    """Return the exit code of results: 0, 1 for what failed, 5 if nothing was decided.
+def exit_code(
+    results: Iterable[CheckResult],
+    *,
+    strict: bool = False,
+    known: Iterable[str] = (),
+    asked: Iterable[str] | None = None,
+) -> int:
+    """Return the exit code of results: 0; 1 for what failed or stayed open beside others; 5 if nothing was decided.
 
-    Shape: `known` are the ids whose failure a baseline has.
+    Shape: `known` are the ids whose failure a baseline has. `asked` are those that the user selected: what they need
+        does not count as decided; None means all.
 
     >>> exit_code([])
     5
     """
-    baseline = frozenset(known)
+    baseline, wanted = frozenset(known), None if asked is None else frozenset(asked)
     bad = {Verdict.FAIL, Verdict.FLAKY, Verdict.PASS_GOOD_ONLY, *((Verdict.WARN,) if strict else ())}
     counted = Counter[str]()
     for result in results:
@@ -380,10 +464,26 @@ def exit_code(results: Iterable[CheckResult], *, strict: bool = False, known: It
             counted["bad"] += 1
         elif result.verdict is Verdict.ERROR:
             counted["error"] += 1
-        elif result.verdict not in (Verdict.SKIP, Verdict.INCONCLUSIVE):
+        elif result.verdict is Verdict.INCONCLUSIVE:
+            counted["open"] += 1
+        elif result.verdict is not Verdict.SKIP and (wanted is None or result.id in wanted):
             counted["decided"] += 1
     if counted["error"]:
         return 4
     if counted["bad"]:
         return 1
-    return 0 if counted["decided"] else 5
+    if not counted["decided"]:
+        return 5
+    return 1 if counted["open"] else 0
+
+
+_WORST_FIRST = (6, 4, 3, 2, 1, 5, 0)
+
+
+def worst(*codes: int) -> int:
+    """Return the exit code of a run for which there are several.
+
+    >>> worst(5, 1), worst(1, 3, 6), worst(0)
+    (1, 6, 0)
+    """
+    return min(codes, key=_WORST_FIRST.index)

@@ -13,7 +13,7 @@ from attrs import define, field
 from i7000 import dcon, modbus
 from i7000.conformance.guard import Guard, GuardError, hazards_of
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
-from i7000.conformance.oracle import Answer, Twin, difference
+from i7000.conformance.oracle import Answer, Twin, difference, is_exact
 from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
 from i7000.message import Query, Response
@@ -220,7 +220,7 @@ class Subject:
         if not heard:
             yield from self.alive(wire)
         if found := difference(answer, heard):
-            raise self.wrong(found, wire, heard, _words(answer.wire))
+            raise self.wrong(found, wire, heard, _words(answer.wire), answer.wire if is_exact(answer) else b"")
         return self.decoded(answer, heard)
 
     def hear(self, wire: bytes) -> Answer:
@@ -250,7 +250,8 @@ class Subject:
                 return None
         if heard not in allowed:
             expected = " or ".join("silence" if it is None else _words(it) for it in allowed)
-            raise self.wrong("no answer" if not heard else "another answer", wire, heard, expected)
+            right = allowed[0] if len(allowed) == 1 else None
+            raise self.wrong("no answer" if not heard else "another answer", wire, heard, expected, right or b"")
         return heard
 
     def silent(self, *pieces: bytes | tuple[float, bytes]) -> Procedure[None]:
@@ -282,7 +283,8 @@ class Subject:
             yield from self._lost(after + wire)
         if heard != answer.wire:
             text = "the next request has another answer"
-            raise self.wrong(text, after + wire, heard, f"silence, then {_words(answer.wire or b'')}")
+            expected = f"silence, then {_words(answer.wire or b'')}"
+            raise self.wrong(text, after + wire, heard, expected, answer.wire or b"")
 
     def _lost(self, sent: bytes) -> Procedure[None]:
         """Look for the module again, and raise what its silence means: it answered before the check, if it did."""
@@ -293,9 +295,9 @@ class Subject:
                 raise Unclear("the module does not answer a plain read after it", sent=sent)
         raise self.wrong("the module does not answer any more", sent, b"", "an answer to a plain read after it")
 
-    def wrong(self, text: str, sent: bytes, received: bytes, expected: str) -> Difference:
-        """Return the error of an answer that is not allowed."""
-        return Difference(text, sent=sent, received=received, expected=expected)
+    def wrong(self, text: str, sent: bytes, received: bytes, expected: str, right: bytes = b"") -> Difference:
+        """Return the error of an answer that is not allowed; `right` are the only bytes that are, if there are such."""
+        return Difference(text, sent=sent, received=received, expected=expected, right=right)
 
     # --- the frames of refusal ----------------------------------------------------------------------------------------
 

@@ -47,18 +47,25 @@ class SkipReason(Enum):
 class Reason(Exception):  # noqa: N818 - most are no errors
     """What ends a check before its end: the verdict, and why.
 
-    Shape: `sent` and `received` are the bytes that decided; `expected` says what was allowed; `erratum` is the reading
-        of the manual that the expectation rests on.
+    Shape: `sent` and `received` are the bytes that decided; `expected` says what was allowed, and `right` are the only
+        bytes that were, if there are such; `erratum` is the reading of the manual that the expectation rests on.
     """
 
     verdict = Verdict.FAIL
 
-    def __init__(
-        self, text: str, *, sent: bytes = b"", received: bytes = b"", expected: str = "", erratum: str | None = None
+    def __init__(  # noqa: PLR0913 - each of them is a fact
+        self,
+        text: str,
+        *,
+        sent: bytes = b"",
+        received: bytes = b"",
+        expected: str = "",
+        right: bytes = b"",
+        erratum: str | None = None,
     ) -> None:
         super().__init__(text)
         self.text = text
-        self.sent, self.received, self.expected, self.erratum = sent, received, expected, erratum
+        self.sent, self.received, self.expected, self.right, self.erratum = sent, received, expected, right, erratum
 
 
 class Difference(Reason):

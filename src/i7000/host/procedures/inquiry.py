@@ -13,7 +13,7 @@ from i7000 import dcon, modbus
 from i7000.arguments import check_int, check_type
 from i7000.errors import EncodeError, I7000Error, InvalidValueError
 from i7000.frozen import frozen
-from i7000.host.events import Answered, Declined
+from i7000.host.events import Answered, Declined, Rejected
 from i7000.host.procedures.settings import Setting, settings_of
 from i7000.host.procedures.step import Procedure, ask
 from i7000.host.procedures.values import Plain
@@ -98,6 +98,8 @@ def ask_for(here: Here, query: Any) -> Procedure[Answer]:  # noqa: ANN401 - a qu
         return Answer(outcome.response)
     if isinstance(outcome, Declined):
         return Answer(None, refusal(outcome))
+    if any(isinstance(it, Rejected) for it in result.others):
+        return Answer(None, "the answer is not understood")
     return Answer(None, "no answer", silent=True)
 
 
@@ -109,7 +111,7 @@ def refusal(outcome: Declined) -> str:
 
 
 def is_there(here: Here) -> Procedure[bool]:
-    """Return whether the module answers a request that every module has; by Modbus, also one without function 46h."""
+    """Return whether the module answers a request that every module has: one of several, if its firmware lacks some."""
     for question in _QUESTIONS[here.protocol]:
         answer = yield from ask_for(here, question(here.address))
         if not answer.silent:
@@ -118,7 +120,7 @@ def is_there(here: Here) -> Procedure[bool]:
 
 
 _QUESTIONS: Mapping[Protocol, tuple[Callable[[int], Query[Response]], ...]] = {
-    Protocol.DCON: (dcon.ReadConfiguration,),
+    Protocol.DCON: (dcon.ReadConfiguration, dcon.ReadModuleName, dcon.ReadFirmwareVersion),
     Protocol.MODBUS_RTU: (modbus.ReadModuleName, lambda address: modbus.ReadInputRegisters(address, 0, 1)),
 }
 

@@ -1,0 +1,128 @@
+"""What people see of a run: a heading for each group, a row for each check, a summary; a progress bar on a terminal."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from i7000.cli.baseline import known_failures
+from i7000.cli.check_stream import ReportStream
+from i7000.cli.check_text import STYLES, details, sections_words
+from i7000.cli.text import Line, Printer
+from i7000.conformance.exports import reproduction
+from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
+from i7000.conformance.run import Begun, CheckResult, Planned, Run
+from i7000.conformance.settle import Settled
+from i7000.conformance.verdict import SkipReason, Verdict
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
+__all__ = ["Screen"]
+
+_WORDS = {0: "PASSED", 1: "FAILED", 5: "UNDECIDED"}
+_COUNTED = frozenset({SkipReason.NOT_APPLICABLE, SkipReason.HAZARD})
+"""Why a check was not carried out that is only counted."""
+_SETTLED = frozenset({Verdict.PASS, Verdict.SKIP, Verdict.INFO})
+"""What is not shown if only failures are wanted."""
+_ROOM = 40
+"""The characters of an id, in most rows."""
+_BAR = 20
+
+
+class Screen:
+    """The output of a run."""
+
+    def __init__(
+        self, printer: Printer, stream: ReportStream, baseline: Mapping[str, Verdict], *, quiet: bool = False
+    ) -> None:
+        self._printer, self._stream, self._baseline, self._quiet = printer, stream, baseline, quiet
+        self._group = ""
+        self._bar: tuple[Progress, TaskID] | None = None
+
+    @contextmanager
+    def progress(self, planned: Sequence[Planned]) -> Iterator[None]:
+        """Draw a progress bar until the end, on a terminal."""
+        if not self._printer.is_interactive:
+            yield
+            return
+        from rich.progress import BarColumn, Progress, TextColumn  # noqa: PLC0415 - it takes time
+
+        console = self._printer.out if self._printer.out.is_terminal else self._printer.err
+        columns = (BarColumn(bar_width=_BAR), TextColumn("{task.completed}/{task.total} {task.description}"))
+        with Progress(*columns, console=console, transient=True, redirect_stdout=False, redirect_stderr=False) as bar:
+            self._bar = bar, bar.add_task("", total=sum(it.skip is None for it in planned))
+            try:
+                yield
+            finally:
+                self._bar = None
+
+    def begin(self, begun: Begun) -> None:
+        """Draw what is carried out."""
+        if self._bar:
+            bar, task = self._bar
+            bar.update(task, description=begun.statement.id)
+
+    def show(self, result: CheckResult) -> None:
+        """Print what became of a check."""
+        if self._bar and result.verdict is not Verdict.SKIP:
+            bar, task = self._bar
+            bar.advance(task)
+        known = result.id in known_failures([result], self._baseline)
+        if result.reason in _COUNTED or (self._quiet and (result.verdict in _SETTLED or known)):
+            return
+        if result.statement.group != self._group:
+            self._group = result.statement.group
+            self._printer.lines([[(self._group, "bold")]])
+        spans: Line = [
+            (f"  {result.id:{_ROOM}} ", "cyan"),
+            (f"{result.verdict.value:14}", STYLES[result.verdict]),
+            (f" {result.seconds * 1000:5.0f} ms  ", "dim"),
+            (sections_words(result.statement.sections), "dim"),
+            (" (in the baseline)" if known else "", ""),
+        ]
+        self._printer.lines([spans, *details(result, reproduction(self._stream.head, result.id))])
+        self._printer.flush()
+
+    def summary(self, one: Run, settled: Settled | None) -> None:
+        """Print what became of all checks."""
+        counts = Counter(result.verdict for result in one.results)
+        words = ", ".join(f"{counts[verdict]} {verdict.value}" for verdict in Verdict if counts[verdict])
+        lines: list[Line] = [[(words or "no check was carried out", "bold")]]
+        lines += [[(f"  {text}", "")] for text in _not_carried_out(one)]
+        mended = sorted(set(self._baseline) & {it.id for it in one.results if it.verdict is Verdict.PASS})
+        if mended:
+            lines.append([(f"in the baseline, but passed: {', '.join(mended)}", "")])
+        if one.may_have_changed:
+            lines.append([(f"{one.writes} of at most {one.options.writes} writes to the EEPROM", "")])
+        restored = dict.fromkeys((*one.restored, *(settled.restored if settled else ())))
+        if restored:
+            lines.append([(f"restored: {', '.join(restored)}", "")])
+        self._printer.lines(lines)
+        self._printer.flush()
+
+    def word(self, code: int) -> None:
+        """Print the outcome in one word."""
+        self._printer.lines([[(_WORDS.get(code, "FAILED"), "bold")]])
+
+
+def _not_carried_out(one: Run) -> Iterator[str]:
+    """Yield how many checks were not carried out, and what to allow for them."""
+    foreign = sum(it.reason is SkipReason.NOT_APPLICABLE for it in one.results)
+    if foreign:
+        yield f"{foreign} not applicable: {one.twin.state.profile.model.value} does not have what they test"
+    missing = Counter(
+        tuple(_options(it.statement.hazards - one.options.allowed - DEFAULT_ALLOWED))
+        for it in one.results
+        if it.reason is SkipReason.HAZARD
+    )
+    if missing:
+        yield f"{sum(missing.values())} not allowed:"
+        for options, count in missing.most_common():
+            yield f"  {count} need {' '.join(options)}" if options else f"  {count} refused by the guard"
+
+
+def _options(hazards: frozenset[Hazard]) -> Iterator[str]:
+    for hazard in Hazard:
+        if hazard in hazards and not (hazard is Hazard.WRITE and Hazard.COMM in hazards):
+            yield f"--allow {hazard.value}"
