@@ -167,12 +167,12 @@ def test_the_checksum_of_a_reading_may_differ_but_must_be_right() -> None:
 def test_only_registers_that_are_measured_may_differ(
     request_body: str, recorded: str, received: str, *, same: bool
 ) -> None:
-    module = {"protocol": "modbus_rtu", "model": "M-7018"}
+    module = {"protocol": "rtu", "model": "M-7018"}
     readings = Readings.of(read_report([json.dumps({**START, "module": module})]))
     sent, one, other = (modbus.seal(bytes.fromhex(text)) for text in (request_body, recorded, received))
 
     assert readings.are_alike(b"\x01\x04" + sent, one, other) is same
     assert not readings.are_alike(sent, one, other[:-1] + bytes((other[-1] ^ 1,)))
-    assert not Readings.of(read_report([json.dumps({**START, "module": {"protocol": "modbus_rtu"}})])).are_alike(
+    assert not Readings.of(read_report([json.dumps({**START, "module": {"protocol": "rtu"}})])).are_alike(
         sent, one, other
     )

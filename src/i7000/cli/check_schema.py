@@ -3,7 +3,8 @@
 import json
 from typing import Any
 
-from i7000 import CharacterFormat, Model, Protocol
+from i7000 import CharacterFormat, Model
+from i7000.cli.choices import PROTOCOLS
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.records import SCHEMA_VERSION
 from i7000.conformance.statement import Level
@@ -51,7 +52,7 @@ _MODULE = _object(
         "model": {"enum": [model.value for model in Model]},
         "firmware": _or_null(_TEXT, "Null: unknown."),
         "name": _or_null(_TEXT, "What the module answers."),
-        "protocol": {"enum": [protocol.name.lower() for protocol in Protocol]},
+        "protocol": {"enum": list(PROTOCOLS)},
         "settings": {
             "type": "object",
             "additionalProperties": {"type": ["string", "number", "boolean", "array"], "items": {"type": "integer"}},

@@ -59,7 +59,7 @@ class Keeper:
         """Restore the module, see `i7000.conformance.settle.settle`; None if that was impossible."""
         writing = bool(self._allowed & STORED)
         try:
-            return open_line.line.run(settle(before, place, line, home=home, writing=writing))
+            return open_line.finish(settle(before, place, line, home=home, writing=writing))
         except (I7000Error, KeyboardInterrupt) as error:
             self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None

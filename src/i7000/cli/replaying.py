@@ -10,6 +10,7 @@ from attrs import frozen
 
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, asked_of
 from i7000.cli.check_options import allowed_of, check_limits
+from i7000.cli.choices import protocol_word
 from i7000.cli.keeping import Keeper
 from i7000.cli.options import UNKNOWN, Module
 from i7000.cli.port import AskOptions, LineOptions
@@ -175,7 +176,7 @@ def _check_same(report: Report, before: Snapshot, there: Reached) -> None:
         "model": before.model.value,
         "name": before.name,
         "address": there.address,
-        "protocol": before.protocol.name.lower(),
+        "protocol": protocol_word(before.protocol.name.lower()),
     }
     for name, value in found.items():
         if report.module.get(name) != value:

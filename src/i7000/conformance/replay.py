@@ -13,6 +13,7 @@ from i7000.conformance.report import Frame, Report
 from i7000.errors import DecodeError
 from i7000.frozen import frozen
 from i7000.host.procedures import BytesHeard, Procedure, SendBytes, Tell
+from i7000.host.procedures.values import PROTOCOLS
 from i7000.modbus import Area, RegisterMap
 from i7000.models import Model
 from i7000.profile import Profile
@@ -56,7 +57,7 @@ class Replayed:
 
 def replay(report: Report, *, timeout_scale: float = 1.0) -> Procedure[tuple[Replayed, ...]]:
     """Make the procedure that sends the frames of a report again, check by check; it tells each `Replayed`."""
-    dcon_ends = b"\r" if report.module.get("protocol") == Protocol.DCON.name.lower() else b""
+    dcon_ends = b"" if _protocol(report) is Protocol.MODBUS_RTU else b"\r"
     baud = report.module.get("baud_rate")
     character = _BITS / baud if isinstance(baud, int) and baud > 0 else 0.0
     readings = Readings.of(report)
@@ -71,6 +72,10 @@ def replay(report: Report, *, timeout_scale: float = 1.0) -> Procedure[tuple[Rep
             yield Tell(result)
             results.append(result)
     return tuple(results)
+
+
+def _protocol(report: Report) -> Protocol:
+    return PROTOCOLS.get(str(report.module.get("protocol")), Protocol.DCON)
 
 
 def _pieces(sent: Sequence[Frame], character: float) -> tuple[tuple[float, bytes], ...]:
@@ -112,11 +117,12 @@ class Readings:
     def of(cls, report: Report) -> "Readings":
         """Return what the module of a report measures; nothing by Modbus for an unknown model."""
         module = report.module
-        by_modbus = module.get("protocol") == Protocol.MODBUS_RTU.name.lower()
+        protocol = _protocol(report)
         model = next((it for it in Model if it.value == module.get("model")), None)
-        rows = RegisterMap(Profile(model, type_codes=())) if by_modbus and model is not None else ()
+        rows = (
+            RegisterMap(Profile(model, type_codes=())) if protocol is Protocol.MODBUS_RTU and model is not None else ()
+        )
         places = {(row.area, row.address + at) for row in rows if row.name in _ROWS for at in range(row.count)}
-        protocol = Protocol.MODBUS_RTU if by_modbus else Protocol.DCON
         return cls(protocol, module.get("checksum") is True, frozenset(places))
 
     def are_alike(self, sent: bytes, one: bytes, other: bytes) -> bool:
