@@ -517,7 +517,7 @@ def test_a_certificate_ends_with_one_word(run: Run, played: Play) -> None:
     failed = run("check", SIM, "--certify", "--quiet")
 
     assert [(told.code, told.out.splitlines()[-1]) for told in (passed, cut, failed)] == [
-        (0, "PASSED"), (5, "UNDECIDED"), (1, "FAILED"),
+        (0, "PASSED without a statement"), (5, "UNDECIDED without a statement"), (1, "FAILED without a statement"),
     ]  # fmt: skip
 
 

@@ -131,6 +131,44 @@ def test_functions_that_are_not_claimed_are_not_checked() -> None:
     assert found["rtu/46/00/reply"].verdict is Verdict.PASS
 
 
+def test_registers_that_are_not_claimed_are_not_checked() -> None:
+    eeprom = memory(Model.M_7017, Protocol.MODBUS_RTU)
+    claims = claims_of(eeprom)
+    fewer = evolve(claims, registers=tuple(name for name in claims.registers if name != "holding_register/40489"))
+
+    found = held(eeprom, fewer, "map")
+
+    assert found["map/holding_register/host_watchdog_timeout"].reason is SkipReason.NOT_APPLICABLE
+    assert found["map/holding_register/line_settings"].verdict is Verdict.PASS
+
+
+@pytest.mark.parametrize(
+    ("function", "area"),
+    [
+        ("ReadCoils", "coil"),
+        ("ReadDiscreteInputs", "discrete_input"),
+        ("ReadHoldingRegisters", "holding_register"),
+        ("ReadInputRegisters", "input_register"),
+    ],
+)
+def test_a_function_is_claimed_if_a_register_of_its_area_is(function: str, area: str) -> None:
+    claims = claims_of(memory(Model.M_7017, Protocol.MODBUS_RTU))
+    fewer = evolve(claims, registers=tuple(name for name in claims.registers if not name.startswith(f"{area}/")))
+    about = [it for it in spec.statements().values() if it.function == function]
+
+    assert about
+    assert all(claims.covers(it) for it in about)
+    assert not any(fewer.covers(it) for it in about)
+
+
+def test_what_only_writes_is_no_part_of_a_statement() -> None:
+    claims = Claims("M-7017", None, None, Protocol.MODBUS_RTU, functions=("46/00",))
+    writes = [it for it in spec.statements().values() if it.function == "WriteSingleCoil" and it.register is None]
+
+    assert writes
+    assert all(map(claims.covers, writes))
+
+
 def test_without_a_statement_its_group_is_left_out() -> None:
     state = power_on(factory(Model.I_7018), now=0.0)
 
@@ -159,6 +197,7 @@ def test_a_statement_is_read_as_it_was_written() -> None:
         (WHOLE.to_json().replace('"b"', "1"), "readings is not an object of texts"),
         (WHOLE.to_json().replace('"I-7018"', "1"), "model is not a text"),
         (WHOLE.to_json().replace('"7018"', "1"), "name is not a text or null"),
+        (evolve(WHOLE, commands=()).to_json(), "it claims no command, no function and no register"),
     ],
 )
 def test_text_that_is_not_a_statement_is_refused(text: str, reason: str) -> None:

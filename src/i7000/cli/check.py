@@ -40,7 +40,11 @@ def check(  # noqa: PLR0913 - each of them is an option
     strict: Annotated[bool, Parameter(help="Let what is allowed but strange (WARN) fail too.", negative="")] = False,
     certify: Annotated[
         bool,
-        Parameter(help="Check everything, without a baseline, and say in a word whether all passed.", negative=""),
+        Parameter(
+            help="Check everything, without a baseline, and say in a word whether all passed; it says if no --statement"
+            " was given.",
+            negative="",
+        ),
     ] = False,
     baseline: Annotated[str | None, Parameter(help="A file with failures that are known; they do not count.")] = None,
     baseline_update: Annotated[
@@ -50,7 +54,8 @@ def check(  # noqa: PLR0913 - each of them is an option
         Texts, Parameter(help="Write a report: json=FILE, html=FILE, junit=FILE, pytest=FILE or pcap=FILE; repeat it.")
     ] = (),
     statement: Annotated[
-        str | None, Parameter(help="A file of i7000 statement: check the module against it, both ways.")
+        str | None,
+        Parameter(help="A file of i7000 statement: check the module against it, both ways, whatever is selected."),
     ] = None,
     snapshot: Annotated[
         str | None,
@@ -78,8 +83,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     frames that every module of the line hears. `--allow comm` can lose the module: be there to switch its power.
     `--allow calibration` can destroy the calibration.
 
-    The module is asked what it is first; `--model` says it instead. What it answers is compared with a model of it that
-    has the same settings. Checks of what the module does not have are skipped as `not-applicable`.
+    The module is asked what it is first; `--model` says it instead, and `--statement` does for a module of no known
+    model. What it answers is compared with a model of it that has the same settings. Checks of what the module does not
+    have are skipped as `not-applicable`.
 
     Verdicts:
 

@@ -76,9 +76,12 @@ def settings_of(wishes: Wishes) -> Settings:
     """
     if wishes.certify and (wishes.select or wishes.baseline):
         raise UsageError("--certify checks everything: leave out the selection and --baseline")
+    select = wishes.select
+    if select and wishes.statement is not None:
+        select = (*select, "statement")
     try:
-        ids = selected(spec.statements(), wishes.select)
-        asked = asked_for(spec.statements(), wishes.select)
+        ids = selected(spec.statements(), select)
+        asked = asked_for(spec.statements(), select)
     except InvalidValueError as error:
         raise UsageError(error) from None
     check_limits(wishes.timeout_scale, wishes.eeprom_writes)

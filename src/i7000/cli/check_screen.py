@@ -101,9 +101,9 @@ class Screen:
         self._printer.lines(lines)
         self._printer.flush()
 
-    def word(self, code: int) -> None:
-        """Print the outcome in one word."""
-        self._printer.lines([[(_WORDS.get(code, "FAILED"), "bold")]])
+    def word(self, code: int, *, stated: bool) -> None:
+        """Print the outcome in one word, and whether the module was not held against a statement."""
+        self._printer.lines([[(_WORDS.get(code, "FAILED"), "bold"), ("" if stated else " without a statement", "")]])
 
 
 def _not_carried_out(one: Run) -> Iterator[str]:

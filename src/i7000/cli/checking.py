@@ -30,6 +30,7 @@ from i7000.device import Eeprom, power_on
 from i7000.host.procedures import Snapshot, snapshot
 from i7000.link import LinkError, VirtualPort
 from i7000.link.guarded import GuardedPort
+from i7000.models import Model
 
 __all__ = ["run"]
 
@@ -68,7 +69,9 @@ class _Checking:
 
     def examine(self, open_line: OpenLine) -> int:
         """Check the module: ask what it is, carry out the plan, and restore it."""
-        there = reach(open_line, self._asked, self._printer.note)
+        claims = self._settings.options.claims
+        like = None if claims is None else next((model for model in Model if model.value == claims.model), None)
+        there = reach(open_line, self._asked, self._printer.note, like, nearest=True)
         before = open_line.run(snapshot(there.address, there.profile, there.protocol))
         if not before.settings:
             raise LineError(f"{there.words} stopped answering: nothing was checked")
@@ -155,7 +158,7 @@ class _Checking:
         if ended:
             self._printer.error("INCOMPLETE: stopped before the end")
         elif self._wishes.certify:
-            self._screen.word(code)
+            self._screen.word(code, stated=self._settings.options.claims is not None)
         return self._written(code)
 
     def _code(self, one: Run, settled: Settled | None) -> int:

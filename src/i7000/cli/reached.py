@@ -21,6 +21,7 @@ from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance import GuardError
+from i7000.dissect import Known
 from i7000.host.procedures import Identified, Procedure, identify
 from i7000.link import Line, LinkError, Observed, Port
 
@@ -108,10 +109,14 @@ def run(
             return 128 + (ending.number or signal.SIGINT)
 
 
-def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = None) -> Reached:
+def reach(
+    open_line: OpenLine, asked: Asked, note: Note, like: Model | None = None, *, nearest: bool = False
+) -> Reached:
     """Identify the module that is asked.
 
     Shape: `note` gets that in words; a module that can be several models is taken for `like`, if that is one of them.
+        With `nearest`, a module of an unknown model is taken for the model that is given, or for `like`, whatever its
+        settings are.
     Errors: `LineError` if it does not answer, `UsageError` for a module of an unknown model, and for what is given and
         does not fit.
     """
@@ -121,7 +126,7 @@ def reach(open_line: OpenLine, asked: Asked, note: Note, like: Model | None = No
         with open_line.ending.breakable():
             cause = silence_cause(open_line.line, wanted.address, wanted.tried, wanted.given.model)
         raise LineError(f"{at_words(wanted.address)} does not answer: {cause}")
-    profile = _profile(wanted, found, like)
+    profile = _profile(wanted, found, like, nearest=nearest)
     for words in found_words(wanted, found, profile, open_line.run(stored_settings(found))):
         note(words)
     return Reached(open_line, wanted.address, found.protocol, profile)
@@ -135,14 +140,29 @@ def given_profile(wanted: Wanted) -> Profile:
     return _profile(wanted, Identified(wanted.address), None)
 
 
-def _profile(wanted: Wanted, found: Identified, like: Model | None) -> Profile:
+def _profile(wanted: Wanted, found: Identified, like: Model | None, *, nearest: bool = False) -> Profile:
     at, known = at_words(wanted.address), wanted.given
-    if known.model is None and like in {candidate.model for candidate in found.candidates}:
+    possible = {candidate.model for candidate in found.candidates}
+    if known.model is None and like is not None and (like in possible or (nearest and found.model is None)):
         known = evolve(known, model=like)
     try:
-        profile = merged(known, found)
+        profile = _merged(known, found, nearest=nearest)
     except InvalidValueError as error:
         raise UsageError(f"{at}: what is given does not fit the module: {error}") from None
     if profile is None:
         raise UsageError(f"{at}: {'; '.join(found.reasons)}: give --model")
     return profile
+
+
+def _merged(known: Known, found: Identified, *, nearest: bool) -> Profile | None:
+    """Return the profile of a module, see `merged`; with `nearest`, settings that the model cannot have are left out.
+
+    Errors: `InvalidValueError` if no module has this combination.
+    """
+    try:
+        return merged(known, found)
+    except InvalidValueError:
+        if not nearest or known.model is None:
+            raise
+    merged(known, Identified(found.address))
+    return Profile(known.model, type_codes=(), checksum=bool(found.known.checksum))

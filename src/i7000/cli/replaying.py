@@ -104,7 +104,7 @@ class _Replaying:
     def examine(self, open_line: OpenLine) -> int:
         """Compare the module with that of the report, send the frames, and restore the module."""
         like = next((model for model in Model if model.value == self._report.module.get("model")), None)
-        there = reach(open_line, self._asked, self._printer.note, like)
+        there = reach(open_line, self._asked, self._printer.note, like, nearest=True)
         before = open_line.run(snapshot(there.address, there.profile, there.protocol))
         if not before.settings:
             raise LineError(f"{there.words} stopped answering: nothing was sent")

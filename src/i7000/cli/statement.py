@@ -27,7 +27,8 @@ def statement(
 
     Everything that the manual gives to any model is tried; nothing is changed. Keep the statement with
     the firmware: `i7000 check TARGET --statement FILE` compares the module with it, both ways, and checks what it
-    claims, also of modules that the manual does not know. A statement is JSON on standard output.
+    claims. A module of no known model is read as the nearest one: give that with `--model`. A statement is JSON on
+    standard output.
 
     JSON keys: `schema_version`, `model`, `firmware`, `name`, `protocol`; `commands` (sections of the manual),
     `functions`, `registers` (numbers of the manual), `types` (of each channel) and `readings` (of open points, by the
@@ -50,7 +51,7 @@ def statement(
     asked = asked_of(target, line, asking, one, module)
 
     def body(open_line: "OpenLine") -> int:
-        there = reach(open_line, asked, printer.note)
+        there = reach(open_line, asked, printer.note, nearest=True)
         taken = open_line.run(snapshot(there.address, there.profile, there.protocol))
         if not taken.settings:
             raise LineError(f"{there.words} stopped answering: nothing was written")

@@ -6,6 +6,7 @@ making one changes nothing.
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 from typing import Any, Self
 
 from attrs import field, fields_dict
@@ -54,9 +55,13 @@ class Claims:
             return kind.section in self.commands or kind is dcon.ReadSynchronizedData
         if statement.function is not None and statement.function.startswith("Read"):
             kind = getattr(modbus, statement.function)
-            code = f"{kind.function:02X}/{kind.sub_function or 0:02X}"
-            return kind.sub_function is None or code in self.functions
-        return True
+            if kind.sub_function is not None:
+                return f"{kind.function:02X}/{kind.sub_function:02X}" in self.functions
+            area = next(area for area, read in _READS.items() if read is kind)
+            if not any(name.startswith(f"{area.name.lower()}/") for name in self.registers):
+                return False
+        rows = _numbers().get(statement.register or "", frozenset())
+        return not rows or not rows.isdisjoint(self.registers)
 
     def to_json(self) -> str:
         """Return the statement as JSON."""
@@ -100,6 +105,8 @@ class Claims:
             raise _damaged("readings is not an object of texts")
         if not isinstance(document["model"], str):
             raise _damaged("model is not a text")
+        if not any(document[name] for name in ("commands", "functions", "registers")):
+            raise _damaged("it claims no command, no function and no register")
         return cls(
             document["model"],
             _text_or_null("firmware", document["firmware"]),
@@ -168,11 +175,26 @@ def _registers(address: int) -> Iterator[tuple[str, Query[Any]]]:
     """Yield a read of the first value of every row of any map; rows of one name may stand in several places."""
     seen: set[tuple[Area, int]] = set()
     for row in _rows_of_all():
-        if (row.area, row.address) in seen or row.access is Access.WRITE or row.ends_when_read:
+        if (row.area, row.address) in seen or not _is_asked(row):
             continue
         seen.add((row.area, row.address))
         count = row.kind.width if row.kind is Kind.RECORD else min(row.kind.width, row.count)
         yield f"{row.area.name.lower()}/{row.number}", _READS[row.area](address, row.address, count)
+
+
+@cache
+def _numbers() -> Mapping[str, frozenset[str]]:
+    """Return the numbers of the rows that a statement can claim, by the name that checks have for them."""
+    found: dict[str, set[str]] = {}
+    for row in _rows_of_all():
+        if _is_asked(row):
+            area = row.area.name.lower()
+            found.setdefault(f"{area}/{row.name}", set()).add(f"{area}/{row.number}")
+    return {name: frozenset(numbers) for name, numbers in found.items()}
+
+
+def _is_asked(row: Register) -> bool:
+    return row.access is not Access.WRITE and not row.ends_when_read
 
 
 def _rows_of_all() -> Iterable[Register]:
