@@ -8,6 +8,7 @@ pytest; the rest is imported by the first test that uses a fixture.
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -118,7 +119,7 @@ class _Check(pytest.Item):
         if verdict == "SKIP":
             pytest.skip(f"{verdict}: {result.text}")
         if verdict == "WARN":
-            self.warn(pytest.PytestWarning(f"{self.name}: {result.text}"))
+            warnings.warn(pytest.PytestWarning(f"{self.name}: {result.text}"), stacklevel=1)
         elif verdict not in _PASSED:
             raise _FailedError(result)
 

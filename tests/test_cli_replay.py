@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from i7000 import Model
 from i7000.conformance.replay import Replayed
+from i7000.host.procedures import Procedure, Snapshot, Wait
 from i7000.link import LinkError
 from tests.firmwares import FirmwarePort, Play, played
 from tests.terminal import Run, plain, run
@@ -51,6 +53,17 @@ def test_a_silent_module_is_sent_nothing_of_the_report(run: Run, report: str, pl
 
     assert (told.code, told.out) == (3, "")
     assert "does not answer" in told.err
+
+
+def test_a_module_that_stops_answering_is_sent_nothing(run: Run, report: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(*_: object) -> Procedure[Snapshot]:
+        yield Wait(0.0)
+        return Snapshot(Model.I_7018)
+
+    monkeypatch.setattr("i7000.cli.replaying.snapshot", nothing)
+    told = run("replay", report)
+
+    assert (told.code, told.out, "stopped answering: nothing was sent" in told.err) == (3, "", True)
 
 
 def test_a_missing_answer_is_shown(run: Run, report: str, played: Play) -> None:

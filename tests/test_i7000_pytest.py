@@ -11,15 +11,17 @@ from time import monotonic
 
 import pytest
 import serial
+from attrs import evolve
 
 import _i7000_pytest
 from i7000 import Model, Profile, TypeCode, dcon, spec
+from i7000.conformance.hazard import Hazard
 from i7000.conformance.run import CheckResult
 from i7000.conformance.settle import Settled
 from i7000.conformance.verdict import Verdict
 from i7000.device import factory, power_on
 from i7000.host import Answered
-from i7000.link import Line, VirtualPort
+from i7000.link import Bench, Line, VirtualPort
 from i7000.simulator import Faults, RunningSimulator
 
 importlib.reload(_i7000_pytest)  # pytest has imported it before coverage began to look
@@ -211,7 +213,7 @@ def test_collecting_sends_nothing_but_reads(
 def test_the_settings_are_in_a_file_before_a_check_changes_any(
     check: Callable[..., pytest.RunResult], pytester: pytest.Pytester, options: tuple[str, ...], name: str
 ) -> None:
-    result = check(*SIM, "--i7000-allow", "write", "-k", "dcon/2.33/set", *options)
+    result = check(*SIM, "--i7000-allow", "write", "-k", "dcon/2.33/set-n1", *options)
     (file,) = pytester.path.glob(name)
 
     assert json.loads(file.read_text(encoding="ascii"))["model"] == "I-7018"
@@ -231,6 +233,42 @@ def test_a_file_that_exists_is_refused(check: Callable[..., pytest.RunResult], p
 
     assert "my.json exists: give the name of a new file" in result.stderr.str() + result.stdout.str()
     assert (pytester.path / "my.json").read_text(encoding="ascii") == "mine"
+
+
+class Stopped(VirtualPort):
+    """A port that is stopped once, when the module has another name."""
+
+    stopped = False
+
+    def write(self, data: object) -> int:
+        if not self.stopped and self.modules[0].eeprom.name != "7018":
+            self.stopped = True
+            raise KeyboardInterrupt
+        return super().write(data)
+
+
+def test_what_a_check_wrote_that_was_broken_off_is_restored(monkeypatch: pytest.MonkeyPatch) -> None:
+    port = Stopped([power_on(factory(Model.I_7018), now=0.0)])
+    monkeypatch.setattr("i7000.link.bench.open_target", lambda *_: port)
+    alone = evolve(spec.statements()["dcon/2.33/set"], needs=())
+    monkeypatch.setattr("i7000.link.bench.spec.statements", lambda: {alone.id: alone})
+    bench = Bench("sim:I-7018", model=Model.I_7018, allow=[Hazard.WRITE])
+    with pytest.raises(KeyboardInterrupt):
+        bench.result(alone.id)
+    changed = port.modules[0].eeprom.name
+    settled = bench.close()
+
+    assert (changed != "7018", settled.restored, port.modules[0].eeprom.name) == (True, ("name",), "7018")
+
+
+def test_a_warning_is_a_warning_of_pytest(
+    check: Callable[..., pytest.RunResult], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    strange = CheckResult(spec.statements()["link/alive"], Verdict.WARN, text="it is strange")
+    monkeypatch.setattr("i7000.link.bench.Bench.result", lambda *_: strange)
+    result = check(*SIM, "-k", "link/alive", "-W", "always")
+
+    assert (result.parseoutcomes()["passed"], result.parseoutcomes()["warnings"], result.ret) == (1, 1, 0)
 
 
 def test_what_is_inconclusive_fails_and_decides_nothing(

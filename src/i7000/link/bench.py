@@ -95,6 +95,8 @@ class Bench:
         self._run = Run(self.planned, eeprom, Options(allowed=allowed), line=self._line.line, checksum=checksum)
         self._by_id = {it.statement.id: it for it in self.planned}
         self._results: dict[str, CheckResult] = {}
+        self._begun = False
+        """Whether a check was carried out, also one that was broken off."""
 
     def result(self, check: str) -> CheckResult:
         """Carry out a check, and before it those that it needs; return what became of it.
@@ -111,6 +113,7 @@ class Bench:
             else:
                 group = self._group(check)
                 self._keep(group)
+                self._begun = True
                 self._line.run(self._run.checks(group), self._tell)
         return self._results[check]
 
@@ -140,11 +143,11 @@ class Bench:
     def close(self) -> Settled:
         """Restore the module, and close the port; return what was left behind.
 
-        Special: without a check that was carried out, nothing is sent.
+        Special: if no check was begun, nothing is sent.
         Errors: `LinkError` if the port is lost.
         """
         try:
-            if not self._results:
+            if not self._begun:
                 return Settled()
             return self._line.run(settle(self.before, self._run.place, self._run.line))
         finally:
