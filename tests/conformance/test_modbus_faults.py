@@ -124,6 +124,16 @@ def swapped(body: bytes) -> bytes:
     return body[:3] + b"".join(body[at + 1 : at + 2] + body[at : at + 1] for at in range(3, len(body), 2))
 
 
+def changing_too(begun: str, **changes: Any) -> Step:
+    """Return a firmware that changes something else too when it carries out a request that some bytes begin."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        after, wire = step(state, frame, signals, now)
+        return (after.store(**changes) if begins(frame, begun) and after is not state else after), wire
+
+    return altered
+
+
 OFFSETS = {"channel_offsets": (1, 2, 3, 4, 5, 6, 7, 8)}
 FAULTS = {
     "the CRC is not compared": Fault(hearing(lambda frame: modbus.seal(frame[:-2])), "rtu/crc/wrong"),
@@ -222,6 +232,15 @@ FAULTS = {
     "a neighbour changes too": Fault(
         heard("010601", lambda it: b"\1\x10" + it[2:4] + b"\0\2\4" + it[4:6] * 2 if it[3] < 7 and it[2] == 1 else it),
         "map/write/type_code",
+    ),
+    "a type resets the offset": Fault(
+        changing_too("010601", cjc_offset=0), "map/write/type_code", changes={"cjc_offset": 12}
+    ),
+    "a mask resets the offset": Fault(
+        changing_too("014626", cjc_offset=0), "rtu/46/26/set", changes={"cjc_offset": 12}
+    ),
+    "a coil resets the offset": Fault(
+        changing_too("0105", cjc_offset=0), "map/write/cjc_enabled", changes={"cjc_offset": 12}
     ),
 }
 

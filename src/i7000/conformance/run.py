@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from random import Random
+from typing import Any
 
 from attrs import evolve
 
@@ -28,6 +29,7 @@ from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
 from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snapshot, Tell, Tune
+from i7000.message import Query
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
@@ -242,6 +244,7 @@ class Run:
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
         self._stopped: Skipped | None = None
+        self._sound: dict[Query[Any], bool] = {}
         self._answering = False
         """Whether the module answered what was sent last."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
@@ -264,7 +267,8 @@ class Run:
         scale, writes = self.options.timeout_scale, self.options.writes - self.writes
         now, state = self.now or 0.0, self.twin.state
         twin = Twin(state.keep(fed_at=now)) if state.ram.protocol is Protocol.MODBUS_RTU else self.twin  # E106
-        return Subject(twin, self.line, scale, chance, now, self.guard, writes, self.options.claims)
+        claims = self.options.claims
+        return Subject(twin, self.line, scale, chance, now, self.guard, writes, claims, sound=self._sound)
 
     def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
@@ -367,7 +371,7 @@ class Run:
 
     def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
         """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
-        failed = verdict is Verdict.ERROR and bool(statement.hazards & _STORED)
+        failed = verdict in (Verdict.ERROR, Verdict.FAIL) and bool(statement.hazards & _STORED)
         elsewhere = _whereabouts(subject.twin.state) != _whereabouts(self.twin.state)
         if self.before is not None and (failed or elsewhere):
             try:

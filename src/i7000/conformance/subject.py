@@ -65,6 +65,8 @@ class Subject:
     """The statement of the module, if one was given."""
     answering: bool = False
     """Whether the module answered what was sent last before the check."""
+    sound: dict[Query[Any], bool] = field(factory=dict)
+    """Whether the reads of settings, at address 01, were answered right before the first change of the run."""
 
     @property
     def protocol(self) -> Protocol:
