@@ -219,8 +219,8 @@ CASES = {
     "a letter after F is channel 0": Case(replaced(rb"CG\r", rb"C0\r"), MC, "dcon/2.7/calibrate-n2"),
     "the name has a character more": Case(saying(b"\r", b"R\r", to=rb"\$01M"), S, "dcon/2.24/reply"),
     "all is acknowledged": Case(
-        answering(answers_all), R, "dcon/2/unknown-command dcon/2.35/silent dcon/2.35/silent-n1 dcon/2.2/sampling "
-        "dcon/2.26/refused-n1 dcon/2.32/reply-n1 dcon/2.34/set-n1"),
+        answering(answers_all), R, "dcon/2/unknown-command dcon/2/bare dcon/2.35/silent dcon/2.35/silent-n1 "
+        "dcon/2.2/sampling dcon/2.26/refused-n1 dcon/2.32/reply-n1 dcon/2.34/set-n1"),
     "#** is answered": Case(answering(answers_all), S, "dcon/2.2/ignored"),
     "the status of the first reading is 0": Case(saying(b">011", b">010"), R, "dcon/2.2/sampling"),
     "the status is always 1": Case(saying(b">010", b">011"), R, "dcon/2.2/sampling dcon/2.12/reply", sampled=True),
