@@ -141,6 +141,7 @@ def test_no_time_decides_nothing(run: Run) -> None:
 def test_checks_of_the_other_protocol_alone_decide_nothing(run: Run) -> None:
     told = run("check", SIM, "map/coil/reset_status")
 
+    assert told.code == 5
     assert " not applicable: I-7018 does not have what they test" in told.out
 
 

@@ -128,7 +128,7 @@ def test_a_file_of_the_other_protocol_is_compared_in_what_both_have(workbench: B
 
     told = workbench(module(Model.M_7019R, type_codes=types))("diff", str(tmp_path / "a.json"))
 
-    assert told.out.splitlines()[1:] == ["protocol  dcon    modbus_rtu  could lose the module"]
+    assert told.out.splitlines()[1:] == ["protocol  dcon    rtu   could lose the module"]
     assert "not compared, as only one of them has it: checksum, cjc_offset.0-7, data_format, " in told.err
     assert told.code == 1
 

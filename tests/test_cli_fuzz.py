@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from i7000 import Model, TypeCode
-from i7000.conformance import DEFAULT_ALLOWED, hazards_of
+from i7000 import LineSettings, Model, TypeCode
+from i7000.conformance import DEFAULT_ALLOWED, GuardError, Hazard, hazards_of
 from i7000.device import Bus, factory, power_on
 from i7000.link import VirtualPort
 from tests.each import each
@@ -159,8 +159,35 @@ def test_a_module_that_is_not_there_is_an_error_of_the_line(run: Run) -> None:
     assert run("fuzz", "/dev/not-there").code == 3
 
 
-def test_a_module_that_cannot_be_identified_within_what_is_allowed_is_said(run: Run) -> None:
-    told = run("fuzz", "sim:M-7018,address=255,protocol=dcon,checksum=yes", "--address", "255", *QUICK)
+def test_a_module_is_identified_without_a_question_that_is_refused(run: Run) -> None:
+    told = run(
+        "fuzz", "sim:M-7018,address=255,protocol=dcon,checksum=yes", "--address", "255", "--frames", "60", *QUICK
+    )
+
+    assert told.code == 0
+    assert "not asked: $FFP00" in told.err
+
+
+def test_a_module_that_cannot_be_identified_within_what_is_allowed_is_said(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def cause(*_: Any) -> str:
+        raise GuardError(b"~01I\r", frozenset({Hazard.COMM}), b"", LineSettings(), own=True)
+
+    monkeypatch.setattr("i7000.cli.reached.silence_cause", cause)
+
+    told = run("fuzz", "sim:I-7018,address=9", *QUICK)
 
     assert told.code == 2
-    assert "cannot be identified within what is allowed: $FFP00" in told.err
+    assert "cannot be identified within what is allowed: ~01I" in told.err
+
+
+def test_text_that_frames_by_modbus_leave_does_not_prevent_the_sentinel(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("i7000.cli.fuzzing.near_miss", lambda *_: b"$01")
+
+    told = run("fuzz", "sim:M-7019R,address=48,protocol=rtu", "--address", "48", "--frames", "40", *QUICK)
+
+    assert told.code == 0
+    assert "40 frames sent" in told.out

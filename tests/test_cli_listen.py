@@ -196,7 +196,7 @@ def test_a_file_that_exists_is_not_overwritten(run: Run, monkeypatch: pytest.Mon
 
     told = listened(run, monkeypatch, options=("--record", str(path)))
 
-    assert (told.code, told.err) == (2, f"i7000: {path}: File exists\n")
+    assert (told.code, told.err) == (2, f"i7000: {path} exists: give the name of a new file\n")
     assert path.read_text() == "mine"
 
 
@@ -205,7 +205,7 @@ def test_lines_that_nobody_reads_are_counted(run: Run, monkeypatch: pytest.Monke
         def close(self) -> int:
             return super().close() + 2
 
-    monkeypatch.setattr("i7000.cli.listening.Outlet", Unread)
+    monkeypatch.setattr("i7000.cli.outlet.Outlet", Unread)
 
     told = listened(run, monkeypatch, (0.5, b"$012\r"))
 
@@ -223,7 +223,7 @@ def test_output_that_cannot_be_written_is_said_and_the_recording_goes_on(
             monkeypatch.setattr(file, "write", write)
             super().__init__(file, **options)
 
-    monkeypatch.setattr("i7000.cli.listening.Outlet", Full)
+    monkeypatch.setattr("i7000.cli.outlet.Outlet", Full)
     path = tmp_path / "bus.jsonl"
 
     told = listened(run, monkeypatch, (0.5, b"$012\r"), (0.5, b"!01050600\r"), options=("--record", str(path)))

@@ -214,3 +214,9 @@ def test_any_text_is_a_module_or_refused(text: str) -> None:
     message = refusal(lambda: power_on(module(text), now=0.0))
 
     assert not message or message.startswith(f"--model {text or repr(text)}: ")
+
+
+def test_a_description_takes_both_words_for_modbus_rtu() -> None:
+    short, whole = (read_module(f"M-7018,protocol={word}", 0x01).eeprom for word in ("rtu", "modbus_rtu"))
+
+    assert short == whole

@@ -1,25 +1,30 @@
 """Questions before a change, at a real terminal: Ctrl-C is a key there."""
 
+import io
 import os
 import pty
 import select
+import signal
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event, Thread, get_ident, main_thread
 from time import monotonic
 
+import pytest
+
 from i7000 import Model
+from i7000.cli import confirm
+from i7000.cli.port import broken_off_by_signals
 from i7000.host.procedures import Snapshot
 from tests.each import each
-from tests.waiting import ENOUGH
+from tests.waiting import ENOUGH, until
 
 SIMULATED = "sim:I-7018"
 AT_TERMINAL = (
     "import os, sys; os.open(os.ttyname(0), os.O_RDWR); from i7000.cli import main; sys.exit(main(sys.argv[1:]))"
 )
 """The command line in a session of its own: the first terminal that it opens is the one whose Ctrl-C it gets."""
-
-SOON = 10.0
 
 
 def answered(keys: bytes, *arguments: str) -> tuple[int, str]:
@@ -33,11 +38,7 @@ def answered(keys: bytes, *arguments: str) -> tuple[int, str]:
             try:
                 shown = shown_until(person, b"[y/N] ")
                 os.write(person, keys)
-                try:
-                    code = started.wait(SOON)
-                except subprocess.TimeoutExpired:  # the signal came just before it began to wait for a line
-                    os.write(person, b"y\n")
-                    code = started.wait(ENOUGH)
+                code = started.wait(ENOUGH)
             finally:
                 started.kill()
         return code, (shown + shown_until(person)).decode()
@@ -55,6 +56,46 @@ def shown_until(person: int, last: bytes = b"") -> bytes:
             break
         shown += os.read(person, 1 << 16)
     return shown
+
+
+SOON = 5.0
+"""Seconds after which a wait that does not end is ended by an answer."""
+FUTEX = ("98", "202")
+"""The system call in which a thread waits for another one, on the usual processors."""
+
+
+def waits_for_input() -> bool:
+    """Whether the main thread waits in a system call that is not for another thread."""
+    call = Path(f"/proc/self/task/{main_thread().native_id}/syscall").read_text(encoding="ascii").split()[0]
+    return call not in ("running", *FUTEX)
+
+
+@pytest.mark.skipif(not Path("/proc/self/syscall").exists(), reason="the system does not show system calls")
+def test_a_signal_that_does_not_reach_the_read_ends_the_wait_for_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A signal that another thread gets is like one that comes just before a read: it interrupts no system call."""
+    person, program = pty.openpty()
+    ended, missed = Event(), Event()
+
+    def press() -> None:
+        until(waits_for_input)
+        signal.pthread_kill(get_ident(), signal.SIGINT)
+        if not ended.wait(SOON):
+            missed.set()
+            os.write(person, b"y\n")
+
+    with os.fdopen(program, "r+b", buffering=0) as raw, broken_off_by_signals() as ending:
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(raw)))
+        presser = Thread(target=press)
+        try:
+            presser.start()
+            with pytest.raises(KeyboardInterrupt), ending.breakable():
+                confirm._answer()  # noqa: SLF001
+            assert ending.number == signal.SIGINT
+            assert not missed.is_set()
+        finally:
+            ended.set()
+            presser.join()
+            os.close(person)
 
 
 @each(

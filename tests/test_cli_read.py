@@ -82,6 +82,21 @@ def test_what_the_module_is_stands_on_standard_error_with_the_models_it_can_be(r
     )
 
 
+def test_the_only_model_that_fits_a_module_with_a_name_of_its_own_is_only_probable(run: Run) -> None:
+    told = run("read", "sim:M-7017R-A5,protocol=dcon,name=OVEN")
+
+    assert told.err.startswith("i7000: address 01: probably M-7017R-A5 B4.5, DCON without a checksum (OVEN is not a")
+
+
+def test_it_is_said_if_modules_of_both_protocols_have_the_same_address(run: Run) -> None:
+    told = run("read", "sim:I-7018+M-7019R,address=1", "--json")
+
+    assert [it["protocol"] for it in told.records] == ["dcon"]
+    assert told.err.splitlines()[1] == (
+        "i7000: address 01: another module answers there by Modbus RTU; --protocol chooses one"
+    )
+
+
 def test_modules_of_both_protocols_are_read_in_one_call(run: Run) -> None:
     told = run("read", TWO, "--address", "1", "--address", "2", "--json")
 

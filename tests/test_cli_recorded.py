@@ -90,7 +90,7 @@ def test_a_file_that_exists_is_not_overwritten(run: Run, tmp_path: Path) -> None
 
     told = run("simulate", "--model", KELVIN, "--tcp", "0", "--record", str(path))
 
-    assert (told.code, told.err) == (2, f"i7000: {path}: File exists\n")
+    assert (told.code, told.err) == (2, f"i7000: {path} exists: give the name of a new file\n")
     assert path.read_text() == "mine"
 
 

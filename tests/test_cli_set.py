@@ -264,7 +264,7 @@ def test_the_protocol_has_its_name_of_the_terminal(workbench: Bench) -> None:
 
     told = bench("set", "protocol=rtu", "--yes", "--address", "0")
 
-    assert "dcon -> modbus_rtu" in told.out
+    assert "dcon -> rtu" in told.out
     assert (told.code, bench.eeprom.protocol) == (0, Protocol.MODBUS_RTU)
 
 

@@ -13,7 +13,7 @@ from time import sleep
 
 import pytest
 
-from i7000.cli.outlet import Outlet
+from i7000.cli.outlet import shown_by
 from i7000.cli.serving import read_place
 from i7000.cli.words import UsageError
 from i7000.simulator.deliveries import MOST_LATE_BYTES, MOST_LATE_PIECES
@@ -112,7 +112,7 @@ def test_lines_that_nobody_reads_are_counted_at_the_end(run: Run, monkeypatch: p
             return super().write(text)
 
     monkeypatch.setattr("sys.stdout", Unread())
-    monkeypatch.setattr("i7000.cli.serving.Outlet", partial(Outlet, most=0))
+    monkeypatch.setattr("i7000.cli.serving.shown_by", partial(shown_by, most=0))
 
     told = simulated(
         run, "--model", KELVIN, "--tcp", str(port), "--view", "lines",

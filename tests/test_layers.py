@@ -37,6 +37,7 @@ RINGS = {
     "link": 4,
     "simulator": 4,
     "recording": 4,
+    "lazy": 4,
 }
 EXTRAS = {
     "strategies": {"hypothesis"},

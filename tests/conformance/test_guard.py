@@ -21,6 +21,7 @@ from i7000 import (
     modbus,
 )
 from i7000.conformance import DEFAULT_ALLOWED, LONGEST_WRITE, Guard, GuardError, Hazard, allowing, hazards_of
+from i7000.conformance.guard_rtu import begins_nothing, hazards_at, hazards_of_modules, hazards_with_crc
 from i7000.conformance.hazard import hazard_of
 from i7000.modbus.registers import Access, Area, rows
 from tests.conformance.acting import LINES
@@ -36,6 +37,7 @@ CLASSES = {
     "write": (
         b"$015\r $0153A\r $0153A14\r $017C0R08\r $017\r $019+0010\r $0191\r $01A1\r $01A107\r"
         b" $01AC6F\r ~01C1\r ~01C7X\r ~01EO1\r"
+        b" ~01C2F\r ~01CA\r ~01C\x0022\r"
         b" ~01EO1A\r @01S1\r @01S14\r ~01ONAME\r ~01O ~011\r"
     ),
     "comm": (
@@ -44,7 +46,7 @@ CLASSES = {
     ),
     "calibration": (
         b"$010\r $010 $01000\r $0100C4\r $011\r $010C0\r $011C9\r $01S0\r $01S1\r $01S ~01E1\r ~01E0 ~01E\r ~01E1F5\r"
-        b" $01$010\r #01$010\r !01$010 $012\r$010\r ~01EX\r ~01EE\r"
+        b" $0\x7f10\r $01$010\r #01$010\r !01$010 $012\r$010\r ~01EX\r ~01EE\r"
     ),
 }  # fmt: skip
 
@@ -80,6 +82,7 @@ def test_what_only_reads_is_harmless(wire: bytes) -> None:
     assert hazards_of(wire) == {Hazard.OBSERVE}
 
 
+LONGEST = f"01 17 0000 0001 01E9 007F FF {'00' * 255}"
 REQUESTS = (
     ("observe", "01 04 0000 0008"), ("observe", "01 46 00"), ("observe", "01 46 29"), ("observe", "01 07"),
     ("observe", "01 46 99"), ("observe", "01 08 0000 1234"), ("observe", "01 2B 0E 01 00"),
@@ -98,6 +101,10 @@ REQUESTS = (
     ("comm", "01 10 01E0 0001 0A 0001 0001 0001 0001 0001"), ("comm", "01 10 FFFF 0300 02 0001"),
     ("comm", "01 46 04 02 0000 00"), ("comm", "01 46 06 00 06 00 00 00 00 00"), ("comm", "01 08 0001 0000"),
     ("comm", "01 16 01E4 00FF 0001"), ("comm", "01 17 0000 0001 01E4 0001 02 0001"),
+    ("comm", "01 46 06 00 06 00 00 00 00 00 00"), ("comm", "01 08 0100 0000"),
+    ("write", "01 0F 0000 0050 0A 00000000000000000000"), ("write", "01 15 0E 06 0001 0000 0001 0000 0000 000000"),
+    ("comm", "01 0F 00F0 0001 03 000000"), ("observe", "01 01 0111 0001"), ("write", "01 46 26 0000FF"),
+    ("write", LONGEST),
     ("calibration", "01 05 010F FF00"), ("calibration", "01 0F 0108 0010 02 FFFF"), ("calibration", "00 05 010F FF00"),
 )  # fmt: skip
 
@@ -128,6 +135,87 @@ def test_a_request_that_changes_something_is_dangerous_with_a_wrong_crc_and_with
         assert Hazard(name) in hazards_of(wire)
 
 
+def test_a_broadcast_that_changes_something_is_one_with_a_wrong_crc_and_without_one() -> None:
+    write, read = bytes.fromhex("00 06 01E9 0001"), bytes.fromhex("00 04 0000 0008")
+
+    for rest in (b"", b"\x00", b"\x12\x34"):
+        assert hazards_of(write + rest) == {Hazard.OBSERVE, Hazard.WRITE, Hazard.BROADCAST}
+        assert hazards_of(read + rest) == {Hazard.OBSERVE}
+
+
+OF_MODULES = {0x01, 0x05, 0x06, 0x0F, 0x10, 0x46}
+TOO_SHORT = "01 46 06 00 06 00 00 00 00 00"
+WHOLE = [
+    pytest.param(name, bytes.fromhex(text), id=text) for name, text in REQUESTS
+    if name != "observe" and text != TOO_SHORT
+]  # fmt: skip
+
+
+@each(("name", "body"), WHOLE)
+def test_a_request_that_is_sent_in_pieces_is_found_by_its_right_crc(name: str, body: bytes) -> None:
+    for before in (b"", b"\x63" * 200):
+        wire = before + sealed(body)
+        for new in range(len(before) + 1, len(wire)):
+            assert Hazard(name) in hazards_with_crc(wire, new)
+            if body[1] in OF_MODULES:
+                assert Hazard(name) in hazards_of_modules(wire, new)
+
+        assert hazards_with_crc(wire, len(wire)) == hazards_of_modules(wire, len(wire)) == {Hazard.OBSERVE}
+
+
+@each(("name", "body"), [it for it in WHOLE if it.id != LONGEST])
+def test_a_request_of_another_length_is_found_by_its_right_crc_if_silence_can_end_it(name: str, body: bytes) -> None:
+    for extra in (1, 2, 5):
+        wire = b"\x02" + sealed(body + bytes(extra))
+
+        assert Hazard(name) in hazards_with_crc(wire, 0) & hazards_with_crc(wire, 1)
+
+
+KNOWN_AT = {0x05: 4, 0x06: 4, 0x08: 4, 0x0F: 4, 0x10: 4, 0x15: 3, 0x16: 4, 0x17: 8, 0x46: 3}
+"""The bytes from which on a request is dangerous: its function code or its first address."""
+SHORTEST = {0x05: 6, 0x06: 6, 0x08: 6, 0x0F: 8, 0x10: 9, 0x15: 10, 0x16: 8, 0x17: 13}
+
+
+BODIES = [bytes.fromhex(text) for name, text in REQUESTS if name in CHANGING]
+
+
+@each("body", BODIES)
+def test_a_request_is_dangerous_from_its_first_address_on(body: bytes) -> None:
+    known = KNOWN_AT[body[1] & 0x7F]
+
+    assert hazards_at(body[: known - 1], whole_body=False) == {Hazard.OBSERVE}
+    assert hazards_at(body[:known], whole_body=False) != {Hazard.OBSERVE}
+
+
+@each("body", [it for it in BODIES if len(it) == SHORTEST.get(it[1] & 0x7F)])
+def test_a_request_after_other_bytes_is_dangerous_once_it_is_complete(body: bytes) -> None:
+    assert hazards_at(body[:-1], whole_body=True) == {Hazard.OBSERVE}
+    assert hazards_at(body, whole_body=True) != {Hazard.OBSERVE}
+
+
+def test_only_a_known_function_code_begins_a_request() -> None:
+    assert begins_nothing(b"\x01\x63")
+    assert not any(map(begins_nothing, (b"", b"\x63", b"\x01\x06", b"\x01\x86")))
+
+
+def test_an_unfinished_request_after_a_long_write_is_remembered() -> None:
+    guard = Guard(frozenset(Hazard)).sending(b"\x63" * 300, LINE).sending(b"\x01", LINE)
+
+    assert Hazard.WRITE in guard.hazards_of(b"\x06\x01\xe9\x00\x01", LINE)
+
+
+def test_the_last_byte_of_the_longest_request_is_dangerous_after_all_others() -> None:
+    wire = sealed(b"\x01\x10\x01\xe9\x00\x7b\xf7" + bytes(247))
+    guard = Guard(frozenset(Hazard)).sending(b"\x63" + wire[:-1], LINE)
+
+    assert len(wire) == 256
+    assert Hazard.WRITE in guard.hazards_of(wire[-1:], LINE)
+
+
+def test_what_is_too_short_for_an_address_is_no_request_with_the_right_crc() -> None:
+    assert hazards_with_crc(sealed(b"\x01\x06"), 0) == {Hazard.OBSERVE}
+
+
 def test_text_in_the_data_of_a_request_is_heard() -> None:
     wire = sealed(b"\x01\x10\x01\xe9\x00\x02\x04$010")
 
@@ -143,6 +231,17 @@ def test_unfinished_text_is_remembered(before: bytes) -> None:
     assert refused.value.hazards == {Hazard.CALIBRATION}
     assert refused.value.before == before
     assert "calibration" in str(refused.value)
+
+
+def test_what_is_on_the_line_is_named_only_if_it_is_part_of_the_reason() -> None:
+    guard = Guard().sending(b"$012\r", LINE).sending(b"$01", LINE)
+    refused = {}
+    for wire in (b"0\r", b"\r$010\r"):
+        with pytest.raises(GuardError) as error:
+            guard.sending(wire, LINE)
+        refused[wire] = error.value.before
+
+    assert refused == {b"0\r": b"$012\r$01", b"\r$010\r": b""}
 
 
 def test_unfinished_text_outlives_a_silence_and_ends_with_its_carriage_return() -> None:
@@ -199,6 +298,19 @@ def test_what_modules_at_another_baud_rate_hear_is_found(wire: bytes) -> None:
     assert "9600 baud N81" in str(refused.value)
     half = len(sent) // 2 // 2 * 2
     assert refused.value.hazards <= Guard().sending(sent[:half], fast).hazards_of(sent[half:], fast)
+
+
+def test_a_request_that_modules_at_another_baud_rate_hear_is_found_in_one_piece_and_in_two() -> None:
+    fast, slow = LineSettings(BaudRate.BAUD_19200), LineSettings(BaudRate.BAUD_9600)
+    bodies = (bytes((8, 0x0F, 8, 8, 8, 8, 8, *(8,) * 7, last)) for last in range(0x100))
+    wire = next(wire for wire in map(sealed, bodies) if all(byte & 8 for byte in wire))
+    sent = half_as_fast(Random(1), wire)
+    half = len(sent) // 4 * 2
+
+    with pytest.raises(GuardError) as refused:
+        Guard().sending(sent, fast)
+    assert (refused.value.line, set(refused.value.hazards)) == (slow, {Hazard.WRITE})
+    assert Hazard.WRITE in Guard().sending(sent[:half], fast).hazards_of(sent[half:], fast)
 
 
 def test_a_request_that_modules_with_another_parity_hear_is_found() -> None:

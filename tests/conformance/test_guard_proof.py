@@ -8,12 +8,13 @@ from random import Random
 
 import pytest
 
-from i7000.conformance import Hazard
-from tests.conformance.acting import COMBINATIONS, combination_of, drawn, outcome_of
+from i7000.conformance import DEFAULT_ALLOWED, Hazard, allowing
+from tests.conformance.acting import COMBINATIONS, acted_after, combination_of, drawn, outcome_of
 from tests.conformance.guard_campaign import strings_up_to
 
 DRAWN = 100_000
 CHUNK = 5_000
+EACH = 2_000
 SHORT = tuple(strings_up_to(2))
 
 
@@ -46,3 +47,28 @@ def test_whatever_a_module_acts_on_in_two_bytes_has_its_hazard(first: int) -> No
         outcome = outcome_of(case)
 
         assert outcome.is_covered, (case, outcome)
+
+
+ALLOWANCES = (
+    DEFAULT_ALLOWED,
+    allowing([Hazard.BROADCAST]),
+    allowing([Hazard.WRITE]),
+    allowing([Hazard.COMM]),
+    allowing([Hazard.CALIBRATION]),
+)
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("allowed", ALLOWANCES)
+def test_what_gets_out_does_nothing_beyond_what_is_allowed(allowed: frozenset[Hazard]) -> None:
+    chance, let_out, kept_back = Random(len(allowed)), 0, 0
+    for number in range(DRAWN, DRAWN + EACH):
+        case = drawn(chance, number)
+        acted = acted_after(case, allowed)
+        if acted is None:
+            kept_back += 1
+            continue
+        let_out += 1
+
+        assert acted <= allowed, case
+    assert min(let_out, kept_back) > EACH // 20

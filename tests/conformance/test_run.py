@@ -8,11 +8,11 @@ from attrs import evolve
 
 from i7000 import InvalidValueError, LineSettings, Model, Protocol, dcon, spec
 from i7000.conformance.hazard import Hazard, allowing
-from i7000.conformance.run import CheckResult, Options, Planned, Run, exit_code, plan, selected, worst
+from i7000.conformance.run import CheckResult, Options, Planned, Run, asked_for, exit_code, plan, selected, worst
 from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement, read_statements
 from i7000.conformance.subject import Subject
-from i7000.conformance.verdict import Difference, Note, Skipped, SkipReason, Strange, Unclear, Verdict
+from i7000.conformance.verdict import Difference, Lost, Note, Skipped, SkipReason, Strange, Unclear, Verdict
 from i7000.device import factory, power_on
 from i7000.host.procedures import Procedure, snapshot
 from i7000.link import Line, VirtualPort
@@ -284,3 +284,33 @@ def test_statements_name_what_a_module_must_have() -> None:
 
 def test_the_digest_of_the_statements_is_that_of_their_files() -> None:
     assert (len(spec.digest()), spec.digest()) == (64, spec.digest())
+
+
+def test_a_request_that_is_lost_each_time_is_a_failure(bench: Bench) -> None:
+    run = bench.run((stated("link/a"), answered), (stated("link/b"), losing), (stated("link/c"), answered))
+
+    assert verdicts(run) == ["PASS", "FAIL", "PASS"]
+    assert run.results[1].text == "it is lost, each of 3 times, though it answers before and later"
+
+
+def losing(module: Subject) -> Procedure[None]:
+    yield from module.expect(module.sentinel)
+    raise Lost("it is lost")
+
+
+def test_what_stays_open_beside_others_is_not_a_pass(bench: Bench) -> None:
+    run = bench.run((stated("link/a"), answered), (stated("link/b"), raising(Unclear("dark"))))
+
+    assert verdicts(run) == ["PASS", "INCONCLUSIVE"]
+    assert exit_code(run.results) == 1
+    assert exit_code(run.results[1:]) == 5
+
+
+def test_what_a_selected_check_needs_is_not_what_was_asked_for(bench: Bench) -> None:
+    needed, asked = stated("link/a"), stated("link/b-n1", needs=("link/a",))
+    run = bench.run((needed, answered), (asked, answered), skip=Skipped(SkipReason.NOT_APPLICABLE, "not there"))
+
+    assert exit_code(run.results, asked=["link/b-n1"]) == 5
+    assert exit_code(run.results) == 0
+    assert asked_for(spec.statements(), ["link/prompt"]) == {"link/prompt"}
+    assert selected(spec.statements(), ["link/prompt"]) == {"link/prompt", "link/alive"}

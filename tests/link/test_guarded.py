@@ -91,6 +91,50 @@ def test_a_line_switches_the_power_through_the_guard() -> None:
     assert port.init_switches == [True]
 
 
+class Buffering:
+    """A port that takes bytes faster than the line sends them."""
+
+    baudrate, parity, stopbits, timeout, time = 9600, "N", 1, 0.0, 0.0
+
+    def now(self) -> float:
+        return self.time
+
+    def write(self, data: bytes) -> int:
+        return len(data)
+
+
+def test_a_silence_begins_when_all_bytes_are_on_the_line() -> None:
+    port: Any = Buffering()
+    guarded = GuardedPort(port)
+    for wire in (b"\x63" * 300, b"\x63" * 300, b"\x05"):
+        guarded.write(wire)
+    read = modbus.encode(modbus.ReadInputRegisters(0x05, 0, 1))
+
+    port.time = 0.7
+    with pytest.raises(GuardError):
+        guarded.write(read)
+    port.time = 0.9
+    assert guarded.write(read) == 8
+
+
+@pytest.mark.parametrize(("options", "expected"), [({"init_switch": True}, True), ({"init_switch": False}, False)])
+def test_the_init_switch_at_a_power_cycle_is_that_of_the_port(options: Any, expected: Any) -> None:
+    port = virtual()
+    GuardedPort(port).power_cycle(**options)
+
+    assert port.modules[0].ram.init_mode is expected
+
+
+def test_a_power_cycle_that_fails_leaves_the_line_as_it_is() -> None:
+    guarded = GuardedPort(virtual())
+    guarded.write(b"$01")
+    with pytest.raises(TypeError):
+        guarded.power_cycle(True)
+
+    with pytest.raises(GuardError):
+        guarded.write(b"0\r")
+
+
 def test_the_settings_of_the_port_are_those_of_the_guard() -> None:
     port = virtual()
     guarded = GuardedPort(port, DEFAULT_ALLOWED)
@@ -98,6 +142,8 @@ def test_the_settings_of_the_port_are_those_of_the_guard() -> None:
     with Line(guarded, line):
         assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (port.baudrate, port.parity, port.stopbits)
         assert (guarded.baudrate, guarded.parity, guarded.stopbits) == (19200, "E", 1)
+    guarded.stopbits = 2
+    assert port.stopbits == 2
     guarded.timeout = 2.0
 
     assert port.timeout == guarded.timeout == 2.0

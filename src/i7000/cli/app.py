@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import Literal
 
-from cyclopts import App, CycloptsError, UnusedCliTokensError
+from cyclopts import App, CycloptsError, UnknownOptionError, UnusedCliTokensError
 
 from i7000.cli.backup import backup
 from i7000.cli.check import check
@@ -90,6 +90,8 @@ _EXTRAS = {"cattrs": "simulator", "filelock": "simulator", "serial": "serial"}
 
 def _words(error: Exception) -> str:
     """Return what is wrong, of a file with its name first."""
+    if isinstance(error, FileExistsError):
+        return f"{error.filename} exists: give the name of a new file"
     if isinstance(error, OSError) and error.strerror:
         return error.strerror if error.filename is None else f"{error.filename}: {error.strerror}"
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
@@ -97,6 +99,10 @@ def _words(error: Exception) -> str:
         is_address = _is_address(unused, error.app or app)
         meant = f"write --address {unused}" if is_address else "put what has blanks in quotes"
         return f"unexpected argument {unused!r}: {meant}"
+    if isinstance(error, UnknownOptionError) and error.command_chain == (send.__name__,):
+        option, _, value = f"{error.token.keyword or error.token.value}".partition("=")
+        if option == "--address":
+            return f"unknown option --address: the address is a field of the command, address={value or 1}"
     return str(error)
 
 

@@ -235,7 +235,7 @@ class _Checking:
         """Restore the module; None if that was impossible."""
         writing = bool(one.options.allowed & _STORED)
         try:
-            settled = open_line.line.run(settle(before, one.place, one.line, home=one.twin, writing=writing))
+            settled = open_line.finish(settle(before, one.place, one.line, home=one.twin, writing=writing))
         except (I7000Error, KeyboardInterrupt) as error:
             self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None

@@ -7,11 +7,22 @@ from typing import Any
 from i7000 import Filter, Protocol
 from i7000.cli.words import UsageError, member, near
 
-__all__ = ["FILTERS", "PROTOCOLS", "chosen"]
+__all__ = ["FILTERS", "PROTOCOLS", "chosen", "protocol_word"]
 
 PROTOCOLS = {"dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+_WHOLE = Protocol.MODBUS_RTU.name.lower()
+"""What Modbus RTU is called by its enumeration; the terminal reads it, and writes ``rtu``."""
 FILTERS = {"50hz": Filter.REJECT_50_HZ, "60hz": Filter.REJECT_60_HZ} | {one.name.lower(): one for one in Filter}
 _SHORT: Mapping[type[Enum], Mapping[str, Enum]] = {Protocol: PROTOCOLS, Filter: FILTERS}
+
+
+def protocol_word(text: str) -> str:
+    """Return the short word of a protocol for its name; any other text as it is.
+
+    >>> protocol_word("modbus_rtu"), protocol_word("auto")
+    ('rtu', 'auto')
+    """
+    return "rtu" if text.strip().lower().replace("-", "_") == _WHOLE else text
 
 
 def chosen(text: str, kind: type[Enum]) -> Any:  # noqa: ANN401 - a member of it

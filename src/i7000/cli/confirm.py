@@ -1,9 +1,14 @@
 """A question before something is changed.
 
-Laws: nothing is changed without an answer: where nobody can answer, the option that does without is named.
+Laws: nothing is changed without an answer: where nobody can answer, the option that does without is named. A signal
+breaks the wait for an answer off, also one that came just before it.
 """
 
+import signal
 import sys
+from contextlib import suppress
+from select import select
+from socket import socketpair
 
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
@@ -39,7 +44,21 @@ def confirmed(why: str, question: str, printer: Printer, *, yes: bool) -> bool:
 
 
 def _answer() -> str:
+    with suppress(OSError):  # Windows waits for sockets only, and no standard input at all can be there
+        _wait_for_input()
     return sys.stdin.readline(_LONGEST_ANSWER)
+
+
+def _wait_for_input() -> None:
+    """Wait until a line can be read, or a signal has come: a read alone would miss one that comes just before it."""
+    awake, waker = socketpair()
+    with awake, waker:
+        waker.setblocking(False)
+        before = signal.set_wakeup_fd(waker.fileno())
+        try:
+            select([sys.stdin, awake], [], [])
+        finally:
+            signal.set_wakeup_fd(before)
 
 
 def _is_terminal() -> bool:

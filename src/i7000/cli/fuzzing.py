@@ -22,6 +22,7 @@ from i7000.conformance import GuardError
 from i7000.conformance.fuzzing import fewest, near_miss, reads, sentinel
 from i7000.errors import written
 from i7000.host import Answered
+from i7000.host.procedures import ask
 from i7000.link import GuardedPort
 from i7000.link.port import clock_of, read, write
 from i7000.message import Query, Response
@@ -81,7 +82,7 @@ class _Run:
 
     def answer(self) -> Response | None:
         """Return the answer to the sentinel; None if it is not carried out."""
-        outcome = self.module.open.line.ask(self.sentinel, self.module.profile)
+        outcome = self.module.open.finish(ask(self.sentinel, self.module.profile)).outcome
         return outcome.response if isinstance(outcome, Answered) else None
 
     def send(self, wire: bytes) -> bool:

@@ -4,18 +4,16 @@ Laws: what is heard is recorded before it is shown; output that nobody reads is 
 always read.
 """
 
-import sys
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager, redirect_stdout
+from contextlib import ExitStack
 from datetime import UTC, datetime
-from functools import partial
 from time import monotonic, time
-from typing import IO, TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from attrs import evolve, frozen
 
 from i7000.cli.frame_text import frame_lines
-from i7000.cli.outlet import Outlet, missed_words
+from i7000.cli.outlet import shown_by
 from i7000.cli.port import ended_by_signals, opened
 from i7000.cli.readers import Read
 from i7000.cli.recorded import RecordOptions, Write, recorded
@@ -35,6 +33,8 @@ __all__ = ["Listener", "Listening", "run", "show"]
 
 _SILENCE = 0.25
 """The seconds without a byte after which what was heard is complete."""
+_MOST_WAITING = 1 << 22
+"""Characters of output that are kept while nobody reads it."""
 _SENT = {Direction.COMMAND: True, Direction.REQUEST: True, Direction.ECHO: True, Direction.RESPONSE: False, None: None}
 _ARROWS: dict[bool | None, str] = {True: "->", False: "<-", None: "--"}
 
@@ -130,7 +130,7 @@ def run(listening: Listening, printer: Printer) -> int:
         )
         listener = Listener(listening.line, began, write)
         judging = listening.judging
-        out = stack.enter_context(_never_held_up(printer))
+        out = stack.enter_context(shown_by(printer, most=_MOST_WAITING))
         ending = stack.enter_context(ended_by_signals())
         now = 0.0
         code = 0
@@ -164,20 +164,3 @@ def show(reads: Iterable[Read], listening: Listening, printer: Printer) -> None:
         else:
             unknown = read.heard is not None and listening.line.knowledge.of(read.heard.address).known.model is None
             printer.lines(frame_lines(read, models=unknown))
-
-
-@contextmanager
-def _never_held_up(printer: Printer) -> Iterator[Outlet]:
-    """Print so that the port is read even if nobody reads what is printed."""
-    out = Outlet(sys.stdout, most=1 << 22, report=partial(_report, printer))
-    with redirect_stdout(cast(IO[str], out)):
-        try:
-            yield out
-        finally:
-            missed = out.close()
-            if missed:
-                printer.error(missed_words(missed))
-
-
-def _report(printer: Printer, error: OSError) -> None:
-    printer.error(f"the output cannot be written: {error.strerror}")

@@ -22,7 +22,7 @@ from i7000 import (
     Unit,
     dcon,
 )
-from i7000.cli.choices import FILTERS, PROTOCOLS
+from i7000.cli.choices import FILTERS, PROTOCOLS, protocol_word
 from i7000.cli.numbers import baud_rate, integer
 from i7000.cli.refusals import as_written
 from i7000.cli.words import UsageError, channel_numbers, choice, member, model, near, quantity, truth, type_codes
@@ -213,7 +213,7 @@ def _of(field: str, read: Callable[[str], Any], scope: _Scope = _EVERY, within: 
 _SETTINGS: dict[str, _Setting] = {
     "address": _of("address", integer),
     "type": _Setting("type_codes", _each("type_codes", _type)),
-    "protocol": _of("protocol", lambda text: choice(text, PROTOCOLS)),
+    "protocol": _of("protocol", lambda text: choice(protocol_word(text), PROTOCOLS)),
     "baud": _of("baud_rate", _defined_baud_rate, within="line_settings"),
     "character_format": _of("character_format", lambda text: member(text, CharacterFormat), within="line_settings"),
     "checksum": _of("checksum", truth, within="report_settings"),

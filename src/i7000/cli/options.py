@@ -82,7 +82,7 @@ class Module:
             settings = dict(part.strip().partition("=")[::2] for part in described.split(","))
             if "protocol" in settings:
                 found[integer(settings["address"]) if "address" in settings else address] = choices.PROTOCOLS[
-                    settings["protocol"].strip().lower()
+                    choices.protocol_word(settings["protocol"]).strip().lower()
                 ]
         return found
 

@@ -8,13 +8,16 @@ them.
 import os
 import signal
 from collections import deque
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stdout, suppress
+from functools import partial
 from threading import Condition, Thread
 from time import sleep
-from typing import IO
+from typing import IO, cast
 
-__all__ = ["MOST_WAITING", "Outlet", "missed_words"]
+from i7000.cli.text import Printer
+
+__all__ = ["MOST_WAITING", "Outlet", "missed_words", "shown_by"]
 
 MOST_WAITING = 1 << 18
 """Characters that are kept by default."""
@@ -177,3 +180,25 @@ def _let_go_on(descriptor: int) -> None:
         termios.tcflow(descriptor, termios.TCOOFF)  # Only what was stopped by this can be let go on.
         termios.tcflow(descriptor, termios.TCOON)
     signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@contextmanager
+def shown_by(
+    printer: Printer, *, most: int = MOST_WAITING, counted: bool = True, says_missed: bool = True
+) -> Iterator[Outlet]:
+    """Print so that the program goes on even if nobody reads what is printed; the value is the output.
+
+    Shape: `most` and `counted` as for `Outlet`; with `says_missed`, the end says how many lines were dropped.
+    """
+    out = Outlet(printer.out.file, most=most, counted=counted, report=partial(_report, printer))
+    with redirect_stdout(cast(IO[str], out)):
+        try:
+            yield out
+        finally:
+            missed = out.close()
+            if missed and says_missed:
+                printer.error(missed_words(missed))
+
+
+def _report(printer: Printer, error: OSError) -> None:
+    printer.error(f"the output cannot be written: {error.strerror}")

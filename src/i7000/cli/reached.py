@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from attrs import define, evolve, frozen
 
-from i7000 import InvalidValueError, Model, Profile, Protocol
+from i7000 import I7000Error, InvalidValueError, Model, Profile, Protocol
 from i7000.cli.asked import Asked
 from i7000.cli.confirm import confirmed
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
@@ -37,16 +37,31 @@ class OpenLine:
 
     line: Line
     ending: BreakingEnding
+    guarded: bool = False
+    """Whether the port has a guard: what it refuses counts as not answered, and is reported."""
 
     def run(self, procedure: Procedure[T]) -> T:
         """Carry out a procedure that changes nothing; a signal breaks it off."""
         with self.ending.breakable():
+            return self.finish(procedure)
+
+    def finish(self, procedure: Procedure[T]) -> T:
+        """Carry out a procedure that no signal breaks off."""
+        if not self.guarded:
             return self.line.run(procedure)
+        from i7000.conformance.allowed import as_allowed  # noqa: PLC0415 - it takes time
+
+        return self.line.run(as_allowed(procedure), _report_refused)
 
     def consents(self, why: str, question: str, printer: Printer, *, yes: bool) -> bool:
         """Return whether the user says yes to a question, see `confirmed`; a signal breaks it off."""
         with self.ending.breakable():
             return confirmed(why, question, printer, yes=yes)
+
+
+def _report_refused(told: object) -> None:
+    if isinstance(told, I7000Error):
+        Printer().note(f"not asked: {told}")
 
 
 @define
@@ -69,7 +84,7 @@ def run(
     body: Callable[[OpenLine], int],
     observe: Callable[[Observed], object] | None = None,
     *,
-    guard: Callable[[Port], Port] = lambda port: port,
+    guard: Callable[[Port], Port] | None = None,
 ) -> int:
     """Open the port of a module, do the work of a command, and return the exit code.
 
@@ -82,8 +97,9 @@ def run(
             with ExitStack() as stack:
                 with ending.breakable():
                     port = stack.enter_context(opened(asked.target, asked.settings))
-                line = Line(guard(port), asked.settings, asked.policy, echo=asked.echo, observe=observe)
-                return body(OpenLine(line, ending))
+                port = guard(port) if guard else port
+                line = Line(port, asked.settings, asked.policy, echo=asked.echo, observe=observe)
+                return body(OpenLine(line, ending, guarded=guard is not None))
         except LinkError as error:
             raise LineError(error) from None
         except GuardError as error:

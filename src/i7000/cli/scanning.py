@@ -16,6 +16,7 @@ from i7000 import BaudRate, LineSettings, Protocol, describe
 from i7000.cli.choices import PROTOCOLS
 from i7000.cli.port import broken_off_by_signals, opened
 from i7000.cli.silence import protocol_words
+from i7000.cli.station import candidates_words
 from i7000.cli.stored import Stored, line_words, stored_settings
 from i7000.cli.text import Line as Spans
 from i7000.cli.text import Printer
@@ -125,7 +126,7 @@ def duration_words(seconds: float) -> str:
 
 
 def _found_words(found: Found) -> str:
-    place, models = found.place, " or ".join(found.models) or "unknown model"
+    place, models = found.place, candidates_words(found.identified) or "unknown model"
     protocol = protocol_words(place.protocol, checksum=place.checksum)
     firmware = f" {found.firmware}" if found.firmware else ""
     init = f"; {found.stored.words()}" if found.stored else ""
@@ -147,7 +148,7 @@ def _table(modules: list[Found]) -> Iterator[Spans]:
             ("yes" if place.checksum else "no") if dcon else "CRC",
             found.identified.name or "",
             found.firmware or "",
-            " or ".join(found.models) or "unknown",
+            candidates_words(found.identified) or "unknown",
         ))  # fmt: skip
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for number, cells in enumerate(rows):

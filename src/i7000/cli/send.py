@@ -4,6 +4,7 @@ from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
 from attrs import evolve
+from attrs import fields as attrs_fields
 from cyclopts import Parameter
 
 from i7000 import InvalidValueError, Model, Profile, Protocol, dcon, modbus
@@ -14,10 +15,12 @@ from i7000.cli.module import named
 from i7000.cli.numbers import integer
 from i7000.cli.options import PROTOCOLS, UNKNOWN, Json, Module
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions, Target
+from i7000.cli.readers import of_lines
 from i7000.cli.records import json_of
 from i7000.cli.text import Printer
 from i7000.cli.wanted import ProtocolChoice
 from i7000.cli.words import LineError, UsageError, near, plain
+from i7000.dissect import Knowledge
 from i7000.host import Declined, TimedOut
 from i7000.host.dangers import Danger, danger_of
 from i7000.message import Query
@@ -113,9 +116,22 @@ def _kinds(name: str, protocol: ProtocolChoice) -> dict[Protocol, type[Query[Any
         said = "" if protocol == "auto" else f" with --protocol {protocol}"
         hint = near(name, names) or ": i7000 commands lists them"
         if not name.isidentifier():
-            hint = ": give its name; i7000 decode shows that of a frame"
+            hint = f": give {_named(name)}"
         raise UsageError(f"there is no command {name!r}{said}{hint}")
     return found
+
+
+def _named(frame: str) -> str:
+    """Return what to give in place of a frame."""
+    reads = of_lines([(1, frame)], Knowledge(), None)
+    messages = [it.message for read in reads if read.heard for it in read.heard.meanings]
+    for message in messages:
+        if isinstance(message, Query):
+            kind: Any = type(message)
+            fields = [it.name for it in attrs_fields(kind)]
+            words = " ".join(f"{it}={getattr(message, it)}" if it == "address" else f"{it}=..." for it in fields)
+            return f"its name and fields: {kind.__name__} {words}"
+    return "its name; i7000 decode shows that of a frame"
 
 
 def _address(kinds: dict[Protocol, type[Query[Any]]], fields: tuple[str, ...]) -> str | None:

@@ -7,14 +7,13 @@ import asyncio
 import logging
 import signal
 from collections.abc import Iterable, Iterator
-from contextlib import AsyncExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
-from functools import partial
+from contextlib import AsyncExitStack, contextmanager, redirect_stderr, suppress
 from ipaddress import IPv6Address
 from typing import IO, Any, Protocol, cast
 
 from attrs import frozen
 
-from i7000.cli.outlet import Outlet, missed_words
+from i7000.cli.outlet import Outlet, shown_by
 from i7000.cli.text import Printer
 from i7000.cli.words import UsageError
 from i7000.simulator.served import Served
@@ -115,23 +114,16 @@ def handlers_kept() -> Iterator[None]:
 def never_held_up(printer: Printer, view: str) -> Iterator[Outlet]:
     """Print so that the program goes on, and ends, even if nobody reads what is printed; the value is the output."""
     limits: dict[str, Any] = {"most": 0, "counted": False} if view == "live" else {}
-    out = Outlet(printer.out.file, report=partial(_report, printer), **limits)
     err = Outlet(printer.err.file)
     complaints = logging.StreamHandler(err)
     logging.getLogger("asyncio").addHandler(complaints)
-    with redirect_stdout(cast(IO[str], out)), redirect_stderr(cast(IO[str], err)):
+    with redirect_stderr(cast(IO[str], err)):
         try:
-            yield out
+            with shown_by(printer, says_missed=view == "lines", **limits) as out:
+                yield out
         finally:
-            missed = out.close()
-            if missed and view == "lines":
-                printer.error(missed_words(missed))
             logging.getLogger("asyncio").removeHandler(complaints)
             err.close()
-
-
-def _report(printer: Printer, error: OSError) -> None:
-    printer.error(f"the output cannot be written: {error.strerror}")
 
 
 @contextmanager

@@ -71,8 +71,9 @@ def simulate(  # noqa: PLR0913 - each of them is an option
       2,000,000 rows and 200 MB.
     * Faults of bytes, each with a probability P: `drop=P`, `flip=P` of a bit, `noise=P` before them. Faults of
       responses: `late=P[:SECONDS]` (0.3 s), `silent=P`, `truncate=P`, `duplicate=P`, `misaddress=P` (the address of
-      another module), `replay=P` (the response to an earlier request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception
-      with CODE, 4). Without a probability: `echo`, and `lumps` (responses arrive every 16 ms).
+      another module; responses with `>` have no address and stay as they are), `replay=P` (the response to an earlier
+      request), `refuse=P[:CODE]` (`?AA`, or a Modbus exception with CODE, 4). Without a probability: `echo`, and
+      `lumps` (responses arrive every 16 ms).
     * More faults of responses: `misfunction=P` (another function code; `!AA` for `>`), `corrupt=P` (one bit is
       flipped), `lookalike=P` (a shorter frame with a good checksum before it), `trailing=P` (00 after it),
       `split=P[:SECONDS]` (in two pieces, 0.05 s apart).

@@ -23,7 +23,7 @@ from i7000.host.procedures import ChannelFault, Identified, Place, Procedure, Re
 from i7000.host.procedures.identified import profile_of
 from i7000.link import Line
 
-__all__ = ["Polled", "Station", "at_words", "found_words", "merged"]
+__all__ = ["Polled", "Station", "at_words", "candidates_words", "found_words", "merged"]
 
 _SILENT = "no answer"
 _TRIED = 2
@@ -97,7 +97,8 @@ class Station:
             return ()
         wanted = self.wanted
         quick = self.doubted or len(wanted.tried) > 1
-        place, silent = line.run(_look(wanted, line.line)) if quick else (None, False)
+        there, silent = line.run(_look(wanted, line.line)) if quick else ((), False)
+        place = next(iter(there), None)
         again = self.pause > 0
         self.pause = min(max(2 * self.pause, _FIRST_REST), _LONGEST_REST)
         self.again = monotonic() + self.pause
@@ -112,10 +113,13 @@ class Station:
         elif silent:
             policy = evolve(policy, retries=max(0, policy.retries - _TRIED))
         found = line.run(identify(wanted.address, protocols=protocols, checksum=checksum, policy=policy))
-        return self._take(found, line.run(stored_settings(found)))
+        return self._take(found, line.run(stored_settings(found)), tuple(_others(there)))
 
-    def _take(self, found: Identified, stored: Stored | None) -> tuple[str, ...]:
-        """Take what a module says that it is; a profile is kept until there is a better one."""
+    def _take(self, found: Identified, stored: Stored | None, others: tuple[str, ...]) -> tuple[str, ...]:
+        """Take what a module says that it is, and the protocols by which others answer at its address.
+
+        Special: a profile is kept until there is a better one.
+        """
         given = self.wanted.given
         if found.protocol is None and (self.profile is not None or given.model is None):
             self.answered = self.profile is not None and self.answered
@@ -131,7 +135,7 @@ class Station:
             return self._not_read(_untyped_words(self.wanted, found))
         self.profile, self.doubted, self.mask = profile, False, None
         self.protocol = self.wanted.protocols[0] if found.protocol is None else found.protocol
-        words = tuple(found_words(self.wanted, found, profile, stored)) if self.answered else ()
+        words = (*found_words(self.wanted, found, profile, stored), *others) if self.answered else ()
         before, self.said = self.said, words
         return () if words == before else words
 
@@ -156,12 +160,20 @@ class Station:
         return polled
 
 
-def _look(wanted: Wanted, settings: LineSettings) -> Procedure[tuple[Place | None, bool]]:
-    """Make the procedure that looks quickly by which protocol a module answers, and whether nothing was heard."""
+def _look(wanted: Wanted, settings: LineSettings) -> Procedure[tuple[tuple[Place, ...], bool]]:
+    """Make the procedure that looks quickly by which protocols modules answer, and whether nothing was heard."""
     checksums = {checksum for protocol, checksum in wanted.tried if protocol is Protocol.DCON}
     scanned = yield from scan([settings], [wanted.address], wanted.protocols, sorted(checksums))
-    places = (finding.place for finding in scanned.devices if finding.place.address == wanted.address)
-    return next(places, None), not scanned.findings
+    places = tuple(finding.place for finding in scanned.devices if finding.place.address == wanted.address)
+    return places, not scanned.findings
+
+
+def _others(places: tuple[Place, ...]) -> Iterator[str]:
+    """Yield what answers in another protocol than the first at an address."""
+    for place in places:
+        if place.protocol is not places[0].protocol:
+            others = protocol_words(place.protocol, checksum=place.checksum)
+            yield f"{at_words(place.address)}: another module answers there by {others}; --protocol chooses one"
 
 
 def _now() -> datetime:
@@ -198,7 +210,7 @@ def _facts(known: Known) -> Iterator[tuple[str, Any]]:
 def found_words(wanted: Wanted, found: Identified, profile: Profile, stored: Stored | None) -> Iterator[str]:
     """Yield what a module says that it is, with the reasons, and what contradicts what is given."""
     at = at_words(wanted.address)
-    models = _models(found) or profile.model.value
+    models = candidates_words(found) or profile.model.value
     read_as = f", read as {profile.model.value}" if len(found.candidates) > 1 else ""
     version = found.known.firmware or found.version
     firmware = f" {version}" if version else ""
@@ -227,6 +239,13 @@ def _untyped_words(wanted: Wanted, found: Identified) -> str:
 
 def _models(found: Identified) -> str:
     return " or ".join(candidate.model.value for candidate in found.candidates)
+
+
+def candidates_words(found: Identified) -> str:
+    """Return the models that a module can be, the most likely one first; an empty text if there are none."""
+    words = _models(found)
+    doubted = len(found.candidates) == 1 and found.candidates[0].doubts
+    return f"probably {words}" if doubted else words
 
 
 def _other_model(wanted: Wanted, found: Identified) -> str:

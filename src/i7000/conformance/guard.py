@@ -4,15 +4,18 @@ Every byte string is classified by the worst reading that a firmware could make 
 on the line: as DCON (`guard_dcon`), as Modbus RTU (`guard_rtu`), and as what modules with other line settings receive.
 
 Laws: whatever a module would carry out has hazards that are found here. Modules with other line settings are not
-lenient: they carry out complete lines and requests only. A guard keeps the last 255 bytes of each protocol, more than
-any frame needs to be completed.
+lenient: they carry out complete lines and requests only. All commands and requests that read are allowed on an idle
+line, at every address and with and without a checksum, but for two that look like others: ``$FFP00``, the protocol of
+module FF with its checksum, which looks like a new protocol; and the type of channel 5 of module A4 by function 46h,
+whose text is ``$F1S``. What is unfinished on the line can make others look dangerous. A guard keeps the last 255 bytes
+of each protocol, more than any frame needs to be completed.
 
 >>> Guard().sending(b"$012\r", LineSettings()).allowed == DEFAULT_ALLOWED
 True
 """
 
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from attrs import field
@@ -41,8 +44,8 @@ _UARTS = tuple(map(Uart.of, _LINES))
 class GuardError(I7000Error):
     """Bytes that were not sent, because they can do more than is allowed.
 
-    Shape: `wire`; `hazards`, those that are not allowed; `before`, the unfinished bytes on the line; `line`, the line
-        settings of the modules that would carry it out.
+    Shape: `wire`; `hazards`, those that are not allowed; `before`, the unfinished bytes on the line if they are part of
+        the reason; `line`, the line settings of the modules that would carry it out.
     """
 
     def __init__(
@@ -115,7 +118,8 @@ class Guard:
         for hazards, place, rest in self._heard(wire, line):
             refused = hazards - self.allowed - _HARMLESS
             if refused:
-                before = rests[place].frame or rests[place].text
+                alone = refused <= Guard().hazards_of(wire, line)
+                before = b"" if alone else rests[place].frame or rests[place].text
                 raise GuardError(wire, refused, before, _LINES[place], own=place == _ends(line)[1])
             rests[place] = rest
             found |= hazards
@@ -127,13 +131,10 @@ class Guard:
 
     def _heard(self, wire: bytes, line: LineSettings) -> Iterator[tuple[frozenset[Hazard], int, Rest]]:
         """Yield the hazards at each line setting at which something is received, its place, and the new rest."""
-        sent, own, others = _ends(line)
+        own = _ends(line)[1]
         yield _lenient(self.rests[own], wire, own)
-        levels = levels_of(wire, sent)
-        for place, receive in others:
-            heard = receive(levels)
-            if heard:
-                yield _strict(self.rests[place], heard, place)
+        for place, heard in _received(wire, line):
+            yield _strict(self.rests[place], heard, place)
 
 
 @cache
@@ -142,6 +143,15 @@ def _ends(line: LineSettings) -> tuple[Uart, int, tuple[tuple[int, Callable[[byt
     sent = Uart.of(line)
     own = next(place for place, uart in enumerate(_UARTS) if uart.sounds_like(sent))
     return sent, own, tuple([(at, receiver(sent, uart)) for at, uart in enumerate(_UARTS) if at != own])
+
+
+@lru_cache(maxsize=64)
+def _received(wire: bytes, line: LineSettings) -> tuple[tuple[int, bytes], ...]:
+    """Return what modules with other line settings than those of the host receive, where they receive something."""
+    sent, _, others = _ends(line)
+    levels = levels_of(wire, sent)
+    heard = [(place, receive(levels)) for place, receive in others]
+    return tuple([(place, found) for place, found in heard if found])
 
 
 def hazards_of(wire: bytes, line: LineSettings = LineSettings()) -> frozenset[Hazard]:  # noqa: B008 - frozen

@@ -98,7 +98,7 @@ def _address(report: Report) -> str:
 
 def _protocol(report: Report) -> str:
     protocol = _of(report.module, "protocol")
-    return {"dcon": "DCON", "modbus_rtu": "Modbus RTU"}.get(protocol, protocol)
+    return {"dcon": "DCON", "rtu": "Modbus RTU"}.get(protocol, protocol)
 
 
 def _head(report: Report, title: str) -> Iterator[str]:

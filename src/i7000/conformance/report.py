@@ -15,14 +15,13 @@ from i7000.conformance.verdict import Verdict
 from i7000.dissect import ChannelReading, Heard, Knowledge, Known, Line, hear_frame
 from i7000.errors import I7000Error
 from i7000.frozen import frozen
+from i7000.host.procedures.values import PROTOCOLS
 from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
 from i7000.type_codes import TypeCode
 
 __all__ = ["Checked", "Frame", "Report", "ReportError", "read_report", "texts"]
-
-_PROTOCOLS = {protocol.name.lower(): protocol for protocol in Protocol}
 
 
 def texts(record: dict[str, Any], name: str) -> list[str]:
@@ -164,7 +163,7 @@ def _object(text: str) -> dict[str, Any] | None:
 def _listener(start: dict[str, Any]) -> Line:
     """Return the listener of a report, which knows the module; one that knows nothing if the report is odd."""
     module = Report(start, (), None, ()).module
-    protocol = _PROTOCOLS.get(str(module.get("protocol")), Protocol.DCON)
+    protocol = PROTOCOLS.get(str(module.get("protocol")), Protocol.DCON)
     model = next((it for it in Model if it.value == module.get("model")), None)
     settings = module.get("settings")
     types = _types(settings if isinstance(settings, dict) else {}, model)

@@ -23,7 +23,7 @@ from i7000.conformance.oracle import Twin
 from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Sentinel, Subject
-from i7000.conformance.verdict import Difference, Reason, Skipped, SkipReason, Verdict
+from i7000.conformance.verdict import Difference, Lost, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom, State
 from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
@@ -248,6 +248,8 @@ class Run:
         self._sound: dict[Query[Any], bool] = {}
         self._answering = False
         """Whether the module answered what was sent last."""
+        self._lost = 0
+        """How often a request after the frame of a check was lost."""
         self._applicable = {it.statement.id for it in planned if it.skip is None}
         self._verdicts: dict[str, Verdict] = {}
 
@@ -300,7 +302,7 @@ class Run:
         skip = one.skip or self._stopped or self._prerequisite(one.statement) or self._over()
         if skip:
             return CheckResult(one.statement, Verdict.SKIP, text=skip.text, reason=skip.reason)
-        answering = self._answering
+        answering, lost = self._answering, self._lost
         result = yield from self._once(one.statement, answering=answering)
         if result.verdict not in _REPEATED or not one.statement.hazards <= _READS:
             return result
@@ -309,7 +311,7 @@ class Run:
             again += ((yield from self._once(one.statement, answering=answering)).verdict,)
         if set(again) != {result.verdict}:
             return evolve(result, verdict=Verdict.FLAKY, repeats=again)
-        if result.verdict is Verdict.INCONCLUSIVE and answering and self._answering:
+        if self._lost - lost == 1 + len(again) and answering and self._answering:
             text = f"{result.text}, each of {1 + len(again)} times, though it answers before and later"
             return evolve(result, verdict=Verdict.FAIL, text=text, repeats=again)
         return evolve(result, repeats=again)
@@ -347,6 +349,7 @@ class Run:
         except Difference as difference:
             verdict, reason = Verdict.INFO if statement.level is Level.OPEN else Verdict.FAIL, difference
         except Reason as other:
+            self._lost += isinstance(other, Lost)
             verdict, reason = other.verdict, other
         except Exception as error:  # noqa: BLE001 - a fault of this program must not keep the module from being restored
             verdict, reason = Verdict.ERROR, Reason(_internal(error))

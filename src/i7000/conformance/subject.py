@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from attrs import define, evolve, field
 
 from i7000 import dcon, modbus
+from i7000.conformance.allowed import LINE_END, SILENCE
 from i7000.conformance.guard import Guard, GuardError, hazards_of
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference, is_exact, rows_of
-from i7000.conformance.verdict import Difference, Skipped, SkipReason, Unclear
+from i7000.conformance.verdict import Difference, Lost, Skipped, SkipReason
 from i7000.frozen import frozen
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
 from i7000.message import Query, Response
@@ -33,9 +34,6 @@ _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
-_SILENCE = 0.3
-"""The silence in seconds that ends every request by Modbus, also for the guard of the port."""
-_LINE_END = b"#\r"
 _STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _MORE_TRIES = 2
 _PAUSE = 0.3
@@ -194,11 +192,11 @@ class Subject:
         Special: DCON has no timeout, so that requests by Modbus may add up to a command; a leading character and a
             carriage return end every such line, and no module carries them out.
         """
-        yield Wait(_SILENCE)
+        yield from self.wait(SILENCE)
         self.guard = self.guard.after_silence()
         if self.protocol is Protocol.MODBUS_RTU:
-            self.guard = self.guard.sending(_LINE_END, self.line)
-            self.now = (yield SendBytes(((0.0, _LINE_END),), _SILENCE)).now
+            self.guard = self.guard.sending(LINE_END, self.line)
+            self.now = (yield SendBytes(((0.0, LINE_END),), SILENCE)).now
 
     def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
         for _, wire in parts:
@@ -339,7 +337,7 @@ class Subject:
         for _ in range(_MORE_TRIES):
             yield from self.wait(_PAUSE)
             if not self.answering or (yield from self.send(wire)).wire:
-                raise Unclear("the module does not answer a plain read after it", sent=sent)
+                raise Lost("the module does not answer a plain read after it", sent=sent)
         raise self.wrong("the module does not answer any more", sent, b"", "an answer to a plain read after it")
 
     def wrong(self, text: str, sent: bytes, received: bytes, expected: str, right: bytes = b"") -> Difference:

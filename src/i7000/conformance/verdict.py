@@ -6,7 +6,7 @@ Laws: a check that ends without raising has passed, if bytes of the module were 
 
 from enum import Enum
 
-__all__ = ["Difference", "Note", "Reason", "SkipReason", "Skipped", "Strange", "Unclear", "Verdict"]
+__all__ = ["Difference", "Lost", "Note", "Reason", "SkipReason", "Skipped", "Strange", "Unclear", "Verdict"]
 
 
 class Verdict(Enum):
@@ -88,6 +88,10 @@ class Unclear(Reason):
     """Nothing was received that could decide."""
 
     verdict = Verdict.INCONCLUSIVE
+
+
+class Lost(Unclear):
+    """A request that should be answered was not; repeating shows whether the frame before it is to blame."""
 
 
 class Skipped(Reason):

@@ -232,7 +232,7 @@ def _reception(module: State, ear: Ear) -> Reception:
     return _reception_at(module.ram.protocol, module.ram.line_settings, ear.uart)
 
 
-@lru_cache
+@lru_cache(maxsize=4096)
 def _reception_at(protocol: Protocol, line: LineSettings, uart: Uart) -> Reception:
     own = Uart.of(line)
     return Reception(protocol, None if own.sounds_like(uart) else own)

@@ -110,7 +110,7 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
         if plain is None:
             row = read_row(number, clean)
             if row is None:
-                yield from map(marked, _of_search(number, text, parts, protocol))
+                yield from map(marked, _of_search(number, text, clean, parts, protocol))
             continue
         if parts:
             yield from map(marked, _apart(parts, protocol))
@@ -123,7 +123,9 @@ def _pieces(lines: Iterator[tuple[int, str]], protocol: Protocol | None) -> Iter
 
 def _ended(row: Row, dump: Dump | None, parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
     """Yield what is left of a dump; or what is in its only row, which is a line like any other then."""
-    return _of_search(row.number, row.text, parts, protocol) if dump is None else _dumped(dump, last=True)
+    if dump is not None:
+        return _dumped(dump, last=True)
+    return _of_search(row.number, row.text, row.text, parts, protocol)
 
 
 def _check_numbered(numbered: object) -> None:
@@ -131,9 +133,8 @@ def _check_numbered(numbered: object) -> None:
         raise ArgumentError("lines", numbered, "tuples of a number and a line (int and str)")
 
 
-def _of_search(number: int, text: str, parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
-    """Search a line, and yield what is complete; a part of a frame is kept in `parts`."""
-    clean = _COLOUR.sub(_blanks, text) if "\x1b" in text else text
+def _of_search(number: int, text: str, clean: str, parts: list[_Part], protocol: Protocol | None) -> Iterator[Piece]:
+    """Search a line, `clean` without colours, and yield what is complete; a part of a frame is kept in `parts`."""
     found, wire, start = read_line(clean)
     if wire and (parts or _begins(wire)):
         part = _Part(number, text, found, wire, start)

@@ -9,8 +9,9 @@ in a thread. `guarded` is a port that refuses what is not allowed. `process` is 
 The names below are imported when they are first used, since asyncio and the simulator take time to import.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from i7000.lazy import imported_at_use
 
 if TYPE_CHECKING:
     from i7000.link.async_line import AsyncLine
@@ -58,16 +59,7 @@ _PLACES = {
     "target": ("TargetOptions", "open_target"),
     "virtual": ("VirtualPort",),
 }
-_MODULES = {name: module for module, names in _PLACES.items() for name in names}
-
-
-def __getattr__(name: str) -> object:
-    """Import a public name when it is first used."""
-    if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
-    globals()[name] = value
-    return value
+__getattr__ = imported_at_use(__name__, _PLACES)
 
 
 def __dir__() -> list[str]:

@@ -174,9 +174,10 @@ class GuardedPort:
         method = getattr(self.__port, name)
 
         def call(*arguments: float, **options: bool | None) -> object:
+            result = method(*arguments, **options)
             if name == "power_cycle":
                 self.__guard = Guard(self.__guard.allowed)
-            return method(*arguments, **options)
+            return result
 
         return call
 

@@ -21,8 +21,9 @@ Laws: time, randomness and I/O are here; the behaviour of modules is in `i7000.d
 when they are first used, since networks take time to import.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from i7000.lazy import imported_at_use
 
 if TYPE_CHECKING:
     from i7000.simulator.faults import Exchange, Faults, Piece, Transfer, Way
@@ -88,16 +89,7 @@ _PLACES = {
     "tcp": ("listen",),
     "threaded": ("RunningSimulator", "simulate"),
 }  # fmt: skip
-_MODULES = {name: module for module, names in _PLACES.items() for name in names}
-
-
-def __getattr__(name: str) -> object:
-    """Import a public name when it is first used."""
-    if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
-    globals()[name] = value
-    return value
+__getattr__ = imported_at_use(__name__, _PLACES)
 
 
 def __dir__() -> list[str]:

@@ -62,11 +62,11 @@ def main() -> int:
         for name, species in zoo().items():
             sys.stdout.write(f"{name}: {species.bug}\n")
         return 0
-    species = _played(given.name)
-    if species is None:
+    played = _played(given.name)
+    if played is None:
         sys.stderr.write(f"there is no {given.name}: python -m tests.conformance.zoo lists all\n")
         return 2
-    _play(species.born(init_switch=os.environ.get(INIT_SWITCH) == "1", now=monotonic()))
+    _play(played.born(init_switch=os.environ.get(INIT_SWITCH) == "1", now=monotonic()))
     return 0
 
 

@@ -233,6 +233,7 @@ class OldAnswerRepeated(Animal):
     """After two readings of all channels, the next command gets the last answer again."""
 
     count = 0
+    last: bytes | None = None
 
     def answer(self, frame: bytes, answer: bytes | None) -> bytes | None:
         if self.count >= 2:
@@ -248,13 +249,13 @@ HERD.add("status-stuck", "The status of $AA4 is always 1.", saying(b"^>010", b">
 
 
 @HERD.animal("samples-whatever-follows", PLAIN, "dcon/2.12/reply-n1", allow=[BROADCAST])
-class SamplesWhateverFollows(hearing(rb"^\$014..$", b"$014")):  # type: ignore[misc] # a class
+class SamplesWhateverFollows(Animal):
     """What follows $AA4 is ignored, and there is a sample from the first."""
 
     def step(self, state: State, frame: bytes, now: float) -> tuple[State, bytes | None]:
         if state.ram.sampled is None:
-            state, _ = Animal.step(self, state, b"#**\r", now)
-        return super().step(state, frame, now)
+            state, _ = super().step(state, b"#**\r", now)
+        return super().step(state, re.sub(rb"^(\$014)..\r", rb"\1\r", frame), now)
 
 
 HERD.add("configuration-without-filter", "The filter bit of the configuration is always 0.",

@@ -21,6 +21,10 @@ Kind = Callable[..., Animal]
 """Makes an animal: `Animal`, or a class that is derived from it."""
 
 
+By = bytes | Callable[[re.Match[bytes]], bytes]
+"""What takes the place of a pattern."""
+
+
 @frozen
 class Species:
     """A firmware with a bug.
@@ -60,7 +64,7 @@ def settings(
 def signals_of(eeprom: Eeprom, scale: float = 1.0) -> Signals:
     """Return constant signals, another one for each channel, times a factor."""
     signals = default_sources(eeprom).at(0.0)
-    return evolve(signals, channels=tuple(evolve(it, value=it.value * scale) for it in signals.channels))
+    return evolve(signals, channels=tuple(it and evolve(it, value=it.value * scale) for it in signals.channels))
 
 
 class Herd:
@@ -136,7 +140,7 @@ def answering(change: Callable[[bytes, bytes], bytes]) -> type[Animal]:
     return Answering
 
 
-def saying(pattern: bytes, by: bytes, *, to: bytes = b"") -> type[Animal]:
+def saying(pattern: bytes, by: By, *, to: bytes = b"") -> type[Animal]:
     """Return firmware that says something else in place of a pattern, to commands that match `to` from their begin."""
 
     def change(heard: bytes, said: bytes) -> bytes:
@@ -145,7 +149,7 @@ def saying(pattern: bytes, by: bytes, *, to: bytes = b"") -> type[Animal]:
     return answering(change)
 
 
-def hearing(pattern: bytes, by: bytes) -> type[Animal]:
+def hearing(pattern: bytes, by: By) -> type[Animal]:
     """Return firmware that takes what matches a pattern for something else."""
 
     class Hearing(Animal):

@@ -26,5 +26,12 @@ def test_a_doubt_puts_a_model_behind_the_others() -> None:
     )
 
 
+def test_the_only_candidate_can_be_doubted() -> None:
+    one = TWO.only({Model.M_7018}, "it")
+
+    assert one.alone("its name").candidates == (Candidate(Model.M_7018, ("its name",)),)
+    assert TWO.alone("its name") is TWO
+
+
 def test_a_doubt_about_every_candidate_says_nothing() -> None:
     assert TWO.doubt(set(Model), "silence") is TWO

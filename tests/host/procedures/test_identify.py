@@ -25,7 +25,7 @@ from i7000 import (
 from i7000.availability import Availability
 from i7000.device import Eeprom, factory, power_on
 from i7000.host import Policy, Rejected, TimedOut
-from i7000.host.procedures import Identified, Result, identify
+from i7000.host.procedures import Candidate, Identified, Result, identify
 from i7000.simulator.faults import Faults
 from i7000.strategies.device import eeproms
 from tests.host.procedures.lines import faults
@@ -135,6 +135,46 @@ def test_every_model_with_every_firmware_is_identified_and_left_as_it_was(eeprom
     assert {type(step.command) for step in runner.asked} <= READING
 
 
+LONGEST_SILENCE = 0.45
+"""The seconds of one request that a module leaves unanswered, and of the silence before the next."""
+LONGEST_ANSWER = 0.04
+"""The seconds of one request with its answer."""
+MAYBE_SILENT = (
+    dcon.ReadProtocol,
+    dcon.ReadConnectingMode,
+    dcon.ReadDiagnostics,
+    dcon.ReadCjcEnabled,
+    dcon.ReadChannelMask,
+    dcon.ReadChannelTypeCode,
+)
+"""The commands that not all models answer."""
+
+
+@pytest.mark.parametrize(
+    "model", [it for it in Model if Protocol.MODBUS_RTU not in it.protocols], ids=lambda it: it.value
+)
+@pytest.mark.parametrize("name", ["", "TANK 1"])
+def test_a_silent_i_module_is_waited_for_once_for_each_command_that_it_may_not_have(model: Model, name: str) -> None:
+    eeprom = factory(model)
+    runner = Runner.on(evolve(eeprom, name=name or eeprom.name))
+
+    runner.run(identify(0x01))
+
+    probes = [step.command for step in runner.asked if isinstance(step.command, MAYBE_SILENT)]
+    assert runner.now <= LONGEST_SILENCE * len(probes) + LONGEST_ANSWER * len(runner.asked)
+
+
+def test_a_module_that_answers_only_after_a_long_time_is_waited_for_as_long_by_every_request() -> None:
+    patient = Policy(retries=1, turnaround=1.5, grace=0.5)
+    eeprom = evolve(factory(Model.M_7017), protocol=Protocol.DCON)
+    runner = Runner.on(eeprom, faults=Faults(late=1.0, late_by=0.9), policy=patient)
+
+    found = runner.run(identify(0x01))
+
+    assert models(found) == ["M-7017"]
+    assert {step.policy for step in runner.asked if isinstance(step.command, MAYBE_SILENT)} == {None}
+
+
 NAMES = st.sampled_from(("", "", "TANK 1", "x", "7018-1"))
 """Names that users give; of a factory name it is taken for granted that nobody gave it to another model."""
 
@@ -156,7 +196,7 @@ def test_any_settings_are_identified_on_a_line_without_faults(eeprom: Eeprom, ec
     assert set() == silently_unknown(found)
 
 
-MOST_REQUESTS = 8 + 3 + 12 + 1 + 20 + 5
+MOST_REQUESTS = 8 + 3 + 2 * 12 + 1 + 20 + 5
 """The most requests of an identity: contact, name and version, probes, mode, types, and what is left."""
 
 
@@ -383,6 +423,31 @@ def test_the_connecting_mode_decides_the_channels(channels: int, *, single_ended
 
     assert found.profile is not None
     assert (single_ended, channels) == (found.known.single_ended, found.profile.channels)
+
+
+def test_the_only_model_that_fits_is_doubted_if_the_module_has_a_name_of_its_own() -> None:
+    eeprom = evolve(factory(Model.M_7017R_A5), name="OVEN", protocol=Protocol.DCON)
+
+    found = Runner.on(eeprom).run(identify(0x01))
+
+    assert models(found) == ["M-7017R-A5"]
+    assert found.candidates[0].doubts == ("OVEN is not its factory name",)
+
+
+def test_the_only_model_that_fits_is_doubted_if_its_name_is_lost() -> None:
+    said = dcon.ProtocolSetting(0x01, modbus_supported=True, protocol=Protocol.DCON)
+    refusals = dict.fromkeys((*PROBES, dcon.ReadModuleName), refused)
+
+    found, _ = run(identify(0x01), by_dcon(code=0x1B) | refusals | {dcon.ReadProtocol: lambda _: said})
+
+    assert models(found) == ["M-7017R-A5"]
+    assert found.candidates[0].doubts == ("the name was not learned",)
+
+
+def test_a_factory_name_leaves_no_doubt_about_the_only_model() -> None:
+    found, _ = run(identify(0x01), by_dcon() | {dcon.ReadProtocol: refused})
+
+    assert found.candidates == (Candidate(Model.I_7019R),)
 
 
 def test_a_7017z_whose_name_was_set_is_known_by_its_connecting_mode() -> None:

@@ -107,7 +107,7 @@ def test_function_46h_is_used_where_the_firmware_has_no_address_map() -> None:
     taken = take(Bench.of(eeprom), Protocol.MODBUS_RTU)
 
     assert (taken["cjc_offset.0"], taken["cjc_offset.7"], taken["module_cjc_offset"]) == (-0.1, 12.7, 0.05)
-    assert (taken["address"], taken["baud_rate"], taken["protocol"]) == (1, 9600, "modbus_rtu")
+    assert (taken["address"], taken["baud_rate"], taken["protocol"]) == (1, 9600, "rtu")
 
 
 @pytest.mark.parametrize("protocol", Protocol)
@@ -273,6 +273,14 @@ def changed(**changes: Any) -> str:
     return json.dumps(json.loads(PLAIN.to_json()) | changes)
 
 
+def test_a_snapshot_reads_both_words_for_modbus_rtu_and_writes_one() -> None:
+    taken = Snapshot(Model.M_7018, protocol=Protocol.MODBUS_RTU, settings={"protocol": "rtu"})
+    text = taken.to_json()
+
+    assert text.count('"protocol": "rtu"') == 2
+    assert taken == Snapshot.from_json(text) == Snapshot.from_json(text.replace('"rtu"', '"modbus_rtu"'))
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -290,7 +298,7 @@ def changed(**changes: Any) -> str:
         (changed(model=["I-7018"]), "model cannot be ['I-7018']"),
         (changed(firmware=2.9), "firmware cannot be 2.9"),
         (changed(name=7018), "name cannot be 7018"),
-        (changed(protocol="rtu"), "protocol cannot be 'rtu': dcon, modbus_rtu"),
+        (changed(protocol="tcp"), "protocol cannot be 'tcp': dcon, rtu, modbus_rtu"),
         (changed(settings=[]), "settings cannot be []: an object of names"),
         (changed(unread=None), "unread cannot be None: an object of names"),
         (changed(unread={"filter": 1}), "unread[filter] cannot be 1: a reason in words"),

@@ -52,6 +52,12 @@ class Evidence:
         doubted = [evolve(it, doubts=(*it.doubts, reason)) if it.model in models else it for it in self.candidates]
         return evolve(self, candidates=tuple(sorted(doubted, key=lambda it: len(it.doubts))))
 
+    def alone(self, reason: str) -> "Evidence":
+        """Doubt the only candidate that is left; several make each other doubtful already."""
+        if len(self.candidates) != 1:
+            return self
+        return evolve(self, candidates=(evolve(self.candidates[0], doubts=(reason,)),))
+
     def groups(self, key: Callable[[Model], Any]) -> dict[Any, tuple[Model, ...]]:
         """Return the models by a key, the group of the most likely one first."""
         found: dict[Any, tuple[Model, ...]] = {}

@@ -21,7 +21,7 @@ __all__ = ["Candidate", "Identified", "Unknown"]
 
 @frozen
 class Candidate:
-    """A model that a module can be, and the `doubts`: what makes another model more likely."""
+    """A model that a module can be, and the `doubts`: what makes another model more likely, or this one unsure."""
 
     model: Model
     doubts: tuple[str, ...] = ()

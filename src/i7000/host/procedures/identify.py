@@ -54,7 +54,8 @@ def identify(
 
     Shape: `protocols` are tried in their order, until something answers; Modbus is not tried at an address that it does
         not have. `checksum` is the setting for DCON; None tries both. `policy` is that of every request; None means the
-        policy of the line. Before that, each way is tried once with a short one.
+        policy of the line. Before that, each way is tried once with a short one; so is what only some models answer, if
+        the module answered to the short one.
     Special: the firmware of a module does not say whether it is an I- or an M-model. By DCON, an I-model may not answer
         what only M-models have, so that both remain candidates. Without a checksum, a
         damaged answer can look like another one; `confirmed` asks everything twice.
@@ -88,7 +89,7 @@ def _identify(address: int, ways: tuple[tuple[Protocol, bool], ...], policy: Pol
             profile = _PLAIN[protocol, checksum]
             silent = yield from _contact(protocol, address, profile, contact)
             if silent is None and protocol is Protocol.DCON:
-                return (yield from identify_by_dcon(address, profile, policy))
+                return (yield from identify_by_dcon(address, profile, policy, contact))
             if silent is None:
                 return (yield from identify_by_modbus(address, policy))
             unheard.append(silent)

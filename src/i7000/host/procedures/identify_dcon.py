@@ -14,7 +14,7 @@ from i7000.availability import Availability
 from i7000.dissect import Known
 from i7000.errors import EncodeError
 from i7000.host.bus import Policy
-from i7000.host.events import Answered, Declined
+from i7000.host.events import Answered, Declined, TimedOut
 from i7000.host.procedures.asking import channel_types, outcome_words, unlearned, value
 from i7000.host.procedures.evidence import Evidence, by_factory_type, by_types
 from i7000.host.procedures.identified import Identified, Unknown, profile_of
@@ -42,8 +42,14 @@ so that a duplicate of one is not taken for the other.
 """
 
 
-def identify_by_dcon(address: int, profile: Profile, policy: Policy | None) -> Procedure[Identified]:
-    """Make the procedure that identifies a module that answers with the checksum setting of `profile`."""
+def identify_by_dcon(
+    address: int, profile: Profile, policy: Policy | None, contact: Policy | None
+) -> Procedure[Identified]:
+    """Make the procedure that identifies a module that answers with the checksum setting of `profile`.
+
+    Shape: `policy` is that of every request, except those that only some models answer: silence is an answer there, so
+        that they have `contact`, the policy with which the module answered first.
+    """
     configured = yield from ask(dcon.ReadConfiguration(address), profile, policy)
     named, no_name = yield from value("name", dcon.ReadModuleName(address), profile, policy)
     version, no_version = yield from value("firmware", dcon.ReadFirmwareVersion(address), profile, policy)
@@ -52,10 +58,10 @@ def identify_by_dcon(address: int, profile: Profile, policy: Policy | None) -> P
     configuration = configured.outcome.response if isinstance(configured.outcome, Answered) else None
     name = None if named is None else named.name
     evidence = _by_configuration(_by_name(name), name, configuration, known)
-    evidence, known, silent = yield from _probed(address, evidence, known, policy)
+    evidence, known, silent = yield from _probed(address, evidence, known, contact)
     known, no_mode = yield from _connecting_mode(address, evidence, known, policy)
     known, no_types = yield from _types(address, evidence, known, configuration, policy)
-    evidence = by_factory_type(by_types(evidence, known), known)
+    evidence = _by_name_of_one(by_factory_type(by_types(evidence, known), known), name)
     modbus = (Unknown("modbus_data_format", "DCON has no command that reads it"),)
     return Identified(
         address,
@@ -109,6 +115,15 @@ def _by_name(name: str | None) -> Evidence:
     return Evidence.of(Model, f"{name} is not a factory name")
 
 
+def _by_name_of_one(evidence: Evidence, name: str | None) -> Evidence:
+    """Doubt the only model that is left if the name of the module does not confirm it."""
+    if name is None:
+        return evidence.alone("the name was not learned")
+    if any(model.factory_name == name for model in evidence.models):
+        return evidence
+    return evidence.alone(f"{name} is not its factory name")
+
+
 def _by_configuration(
     evidence: Evidence, name: str | None, configuration: dcon.Configuration | None, known: Known
 ) -> Evidence:
@@ -142,7 +157,7 @@ def _untyped(known: Known, model: Model) -> Profile:
 
 
 def _probed(
-    address: int, evidence: Evidence, known: Known, policy: Policy | None
+    address: int, evidence: Evidence, known: Known, contact: Policy | None
 ) -> Procedure[tuple[Evidence, Known, Unknown | None]]:
     """Make the procedure that asks what only some of the candidates answer; also return the last silence."""
     silent: Unknown | None = None
@@ -156,7 +171,7 @@ def _probed(
             if form is None:
                 continue
             profile = _untyped(known, models[0])
-            result = yield from ask(command, profile, policy)
+            result = yield from _once(command, profile, contact)
             words = outcome_words(result, profile)
             if isinstance(result.outcome, Answered):
                 evidence = evidence.only(models, words)
@@ -169,6 +184,14 @@ def _probed(
                 silent = unlearned("model", result, profile)
                 evidence = evidence.doubt(models, words)
     return evidence, known, silent
+
+
+def _once(command: dcon.Command[Any], profile: Profile, contact: Policy | None) -> Procedure[Result[Any]]:
+    """Make the procedure that asks a second time only if something other than the response came."""
+    result = yield from ask(command, profile, contact)
+    if isinstance(result.outcome, TimedOut) and result.others:
+        result = yield from ask(command, profile, contact)
+    return result
 
 
 def _form(command: dcon.Command[Any], profile: Profile) -> tuple[bytes, int] | None:

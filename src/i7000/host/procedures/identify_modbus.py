@@ -118,6 +118,8 @@ def _identified(found: Identified, evidence: Evidence, policy: Policy | None) ->
     modbus_format, no_format = yield from _row(address, "modbus_data_format", profile, policy)
     known = evolve(known, types=types, modbus_data_format=modbus_format)
     evidence = by_factory_type(by_types(evidence, known), known)
+    if found.name is None:
+        evidence = evidence.alone("the name was not learned")
     return evolve(
         found,
         known=evidence.known(known),

@@ -15,7 +15,7 @@ from i7000.frozen import frozen
 from i7000.host.procedures.inquiry import Here, Seen, ask_setting, identity, plain_value, refined, spot
 from i7000.host.procedures.settings import Setting, known_settings, settings_of
 from i7000.host.procedures.step import Procedure
-from i7000.host.procedures.values import Plain
+from i7000.host.procedures.values import PROTOCOLS, Choice, Plain, choices
 from i7000.models import Model
 from i7000.profile import Profile
 from i7000.settings import Protocol
@@ -107,7 +107,7 @@ class Snapshot:
             "model": self.model.value,
             "firmware": self.firmware,
             "name": self.name,
-            "protocol": self.protocol.name.lower(),
+            "protocol": choices(Protocol).plain("protocol", self.protocol),
             "settings": dict(self.settings),
             "unread": dict(self.unread),
         }
@@ -128,7 +128,7 @@ class Snapshot:
         if type(version) is not int or version != SCHEMA_VERSION:
             raise InvalidValueError("schema_version", version, f"{SCHEMA_VERSION}, that of this program", "")
         models = {model.value: model for model in Model}
-        protocols = {protocol.name.lower(): protocol for protocol in Protocol}
+        protocols = PROTOCOLS | {protocol.name.lower(): protocol for protocol in Protocol}
         settings, unread = (_mapping(document, key) for key in ("settings", "unread"))
         return cls(
             _one_of("model", document["model"], models),
@@ -150,6 +150,8 @@ def _plain(model: Model, known: Mapping[str, Setting], name: str, value: object)
         raise InvalidValueError("settings", name, "the names of `settings_of`", "", reason)
     values = known[name].values
     plain = values.plain(name, values.typed(name, value))
+    if isinstance(values, Choice) and value in values.also:
+        return plain
     if plain != value or type(plain) not in (type(value), float):
         raise InvalidValueError(name, value, f"a plain value: {values.allowed}", "")
     return plain

@@ -19,6 +19,8 @@ from i7000.type_codes import TypeCode
 
 __all__ = ["Channels", "Choice", "Name", "Plain", "Quantity", "Values", "choices", "switch", "types"]
 
+PROTOCOLS = {"dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+"""The words for the protocols."""
 Plain = bool | int | float | str | tuple[int, ...]
 """A value of a setting in a snapshot: JSON has all of them; a tuple of channels is an array there."""
 _LONGEST_TEXT = 100
@@ -30,11 +32,13 @@ _NEARLY = Decimal("1e-6")
 class Choice:
     """A few values, each with its plain form.
 
-    Shape: `options` are pairs of plain and typed values; `aliases` more texts for the typed values.
+    Shape: `options` are pairs of plain and typed values; `aliases` more texts for the typed values. `also` are plain
+        forms that are read in snapshots, and never written.
     """
 
     options: tuple[tuple[Plain, Any], ...]
     aliases: tuple[tuple[str, Any], ...] = ()
+    also: tuple[str, ...] = ()
 
     @property
     def unit(self) -> None:
@@ -238,7 +242,9 @@ def switch() -> Choice:
 
 
 def choices(kind: type[Enum]) -> Choice:
-    """Return the members of an enumeration by their names; baud rates as numbers, character formats in capitals.
+    """Return the members of an enumeration by their names.
+
+    Special: baud rates are numbers, character formats have capitals, and Modbus RTU is ``rtu``, as in every option.
 
     >>> choices(BaudRate).typed("baud_rate", "9600"), choices(CharacterFormat).typed("character_format", "e81").name
     (<BaudRate.BAUD_9600: 6>, 'E81')
@@ -246,8 +252,10 @@ def choices(kind: type[Enum]) -> Choice:
     if kind is BaudRate:
         return Choice(tuple((rate.bits_per_second, rate) for rate in BaudRate))
     upper = kind is CharacterFormat
-    aliases = (("rtu", Protocol.MODBUS_RTU),) if kind is Protocol else ()
-    return Choice(tuple((member.name if upper else member.name.lower(), member) for member in kind), aliases)
+    if kind is Protocol:
+        whole = Protocol.MODBUS_RTU.name.lower()
+        return Choice(tuple(PROTOCOLS.items()), ((whole, Protocol.MODBUS_RTU),), (whole,))
+    return Choice(tuple((member.name if upper else member.name.lower(), member) for member in kind))
 
 
 def types(profile: Profile) -> Choice:
