@@ -66,7 +66,12 @@ class Bench:
 
     def _listen(self, act: SendBytes) -> BytesHeard:
         heard = b""
-        for pause, wire in act.pieces:
+        pieces = list(act.pieces)
+        if self.state.ram.protocol is Protocol.MODBUS_RTU:  # silence ends a request
+            for at in range(len(pieces) - 1, 0, -1):
+                if not pieces[at][0]:
+                    pieces[at - 1 : at + 1] = [(pieces[at - 1][0], pieces[at - 1][1] + pieces[at][1])]
+        for pause, wire in pieces:
             self.sent.append(wire)
             self.now += pause + 0.001 * len(wire)
             if self.line == self.state.ram.line_settings:

@@ -1,7 +1,7 @@
 """The checks of the DCON commands: every model passes them, and each of them finds a firmware at fault."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fnmatch import fnmatchcase
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from i7000 import Model, spec
 from i7000.conformance.statement import Level
 from i7000.conformance.verdict import SkipReason, Verdict
 from i7000.device import Signals, State, power_on, step
-from i7000.settings import DataFormat
+from i7000.settings import DataFormat, Filter, Protocol
 from i7000.type_codes import TypeCode
 from tests.conformance.bench import (
     STATEMENTS,
@@ -150,6 +150,25 @@ def sets_all_types(state: State, frame: bytes, signals: Signals, now: float) -> 
     return after, wire
 
 
+def changing_too(begins: bytes, change: Callable[[State], State]) -> Step:
+    """Return a firmware that changes something else too when it carries out a command that some bytes begin."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        after, wire = step(state, frame, signals, now)
+        return (change(after) if frame.startswith(begins) and wire == b"!01\r" else after), wire
+
+    return altered
+
+
+def no_offset(state: State) -> State:
+    return state.store(cjc_offset=0)
+
+
+def other_filter(state: State) -> State:
+    report = state.eeprom.report_settings
+    return state.store(report_settings=evolve(report, filter=Filter(not report.filter.value)))
+
+
 def answers_all(_: bytes, wire: bytes | None) -> bytes | None:
     return b"!01\r" if wire is None else wire
 
@@ -200,8 +219,8 @@ CASES = {
     "a letter after F is channel 0": Case(replaced(rb"CG\r", rb"C0\r"), MC, "dcon/2.7/calibrate-n2"),
     "the name has a character more": Case(saying(b"\r", b"R\r", to=rb"\$01M"), S, "dcon/2.24/reply"),
     "all is acknowledged": Case(
-        answering(answers_all), R, "dcon/2/unknown-command dcon/2.35/silent dcon/2.35/silent-n1 dcon/2.2/sampling "
-        "dcon/2.26/refused-n1 dcon/2.32/reply-n1 dcon/2.34/set-n1"),
+        answering(answers_all), R, "dcon/2/unknown-command dcon/2/bare dcon/2.35/silent dcon/2.35/silent-n1 "
+        "dcon/2.2/sampling dcon/2.26/refused-n1 dcon/2.32/reply-n1 dcon/2.34/set-n1"),
     "#** is answered": Case(answering(answers_all), S, "dcon/2.2/ignored"),
     "the status of the first reading is 0": Case(saying(b">011", b">010"), R, "dcon/2.2/sampling"),
     "the status is always 1": Case(saying(b">010", b">011"), R, "dcon/2.2/sampling dcon/2.12/reply", sampled=True),
@@ -221,6 +240,13 @@ CASES = {
         "dcon/2.13/set-n1"),
     "a type is that of all channels": Case(sets_all_types, R, "dcon/2.15/set"),
     "an undefined type is taken for 08": Case(replaced(b"R30", b"R08"), R, "dcon/2.15/set-n1"),
+    "a type toggles the filter": Case(changing_too(b"$017C", other_filter), R, "dcon/2.15/set"),
+    "a name resets the offset": Case(changing_too(b"~01O", no_offset), R, "dcon/2.33/set", {"cjc_offset": 12}),
+    "a mask resets the offset": Case(changing_too(b"$015", no_offset), R, "dcon/2.13/set", {"cjc_offset": 12}),
+    "CJC resets the offset": Case(changing_too(b"~01C", no_offset), R, "dcon/2.30/set", {"cjc_offset": 12}),
+    "the update toggles the filter": Case(changing_too(b"$01A", other_filter), R, "dcon/2.21/set"),
+    "the mode toggles the protocol": Case(
+        changing_too(b"@01S", lambda it: it.store(protocol=Protocol.MODBUS_RTU)), Z, "dcon/2.43/set"),
     "the sign of the offset is lost": Case(replaced(rb"^\$019-", rb"$019+"), R, "dcon/2.18/set"),
     "an offset beyond 1000h is cut": Case(replaced(rb"1001\r", rb"1000\r"), R, "dcon/2.18/set-n1"),
     "an update of 3 is taken": Case(replaced(rb"^\$01A3\r", rb"$01A2\r"), R, "dcon/2.21/set-n1"),

@@ -77,6 +77,7 @@ def test_no_check_of_what_is_written_passes_at_a_firmware_that_only_acknowledges
     assert passed & writing == {
         "map/write/host_watchdog_timeout_count",
         "map/write/host_watchdog_timed_out",
+        "rtu/46/unknown",
     }
     assert set(WRITTEN) <= {name for each_ in verdicts for name in each_}
 
@@ -124,6 +125,31 @@ def swapped(body: bytes) -> bytes:
     return body[:3] + b"".join(body[at + 1 : at + 2] + body[at : at + 1] for at in range(3, len(body), 2))
 
 
+def changing_too(begun: str, **changes: Any) -> Step:
+    """Return a firmware that changes something else too when it carries out a request that some bytes begin."""
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        after, wire = step(state, frame, signals, now)
+        return (after.store(**changes) if begins(frame, begun) and after is not state else after), wire
+
+    return altered
+
+
+def losing_the_next(bad: Callable[[bytes], bool]) -> Step:
+    """Return a firmware that does not hear the frame after one that it does not take."""
+    lost = [False]
+
+    def altered(state: State, frame: bytes, signals: Signals, now: float) -> tuple[State, bytes | None]:
+        missed, lost[0] = lost[0], bad(frame)
+        return (state, None) if missed else step(state, frame, signals, now)
+
+    return altered
+
+
+def wrong_crc(frame: bytes) -> bool:
+    return len(frame) > 4 and modbus.seal(frame[:-2]) != frame and len(frame) < 256
+
+
 OFFSETS = {"channel_offsets": (1, 2, 3, 4, 5, 6, 7, 8)}
 FAULTS = {
     "the CRC is not compared": Fault(hearing(lambda frame: modbus.seal(frame[:-2])), "rtu/crc/wrong"),
@@ -132,8 +158,8 @@ FAULTS = {
     "a write at address 0 is answered": Fault(
         heard("0005", lambda body: b"\1" + body[1:]), "rtu/address/broadcast-write"
     ),
-    "unknown functions are ignored": Fault(silent("0147"), "rtu/function/unknown"),
-    "unknown functions have code 02": Fault(answered("0141", lambda body: body[:2] + b"\2"), "rtu/function/unknown"),
+    "unknown functions are ignored": Fault(silent("0130"), "rtu/function/unknown"),
+    "unknown functions have code 02": Fault(answered("0119", lambda body: body[:2] + b"\2"), "rtu/function/unknown"),
     "an exception has no bit 7": Fault(
         answered("0104", lambda it: without_bit_7(it) if it[1] & 0x80 else it), "map/gaps/input_register"
     ),
@@ -150,6 +176,28 @@ FAULTS = {
         answering(lambda frame, wire: modbus.seal(b"\1\4\0") if frame[1] == 4 and frame[4:6] == b"\0\0" else wire),
         "rtu/04/counts-n1",
     ),
+    "the end of a read wraps around": Fault(
+        answering(lambda frame, wire: modbus.seal(b"\1\4\4\0\0\0\0") if begins(frame, "0104ffff0002") else wire),
+        "rtu/04/around",
+    ),
+    "the end of a write wraps around": Fault(
+        answering(lambda frame, wire: modbus.seal(frame[:6]) if begins(frame, "0110ffff0002") else wire),
+        "rtu/10/around",
+    ),
+    "padding bits are set": Fault(
+        answered("0101", lambda it: it if it[1] & 0x80 or len(it) > 4 else it[:3] + bytes((it[3] | 0x80,))),
+        "rtu/01/padding",
+        verdict=Verdict.WARN,
+    ),
+    "padding bits of inputs are set": Fault(
+        answered("0102", lambda it: it if it[1] & 0x80 or len(it) > 4 else it[:3] + bytes((it[3] | 0x80,))),
+        "rtu/02/padding",
+        verdict=Verdict.WARN,
+    ),
+    "a short answer of coils": Fault(answered("0101", lambda it: it[:-1]), "rtu/01/padding"),
+    "no answer to a read of coils": Fault(silent("0101"), "rtu/01/padding"),
+    "a wrong CRC stays in the buffer": Fault(losing_the_next(wrong_crc), "frame/recovers/rtu"),
+    "a long request stays in the buffer": Fault(losing_the_next(lambda it: len(it) > 256), "frame/recovers/rtu"),
     "a start behind the map is answered": Fault(answered("0103ffff", lambda _: b"\1\3\2\0\0"), "rtu/03/counts-n2"),
     "bytes behind a request are ignored": Fault(heard("0104", lambda body: body[:6]), "rtu/04/length"),
     "bytes behind a setting are ignored": Fault(heard("014625", lambda body: body[:3]), "rtu/46/25/reply-n1"),
@@ -222,6 +270,15 @@ FAULTS = {
     "a neighbour changes too": Fault(
         heard("010601", lambda it: b"\1\x10" + it[2:4] + b"\0\2\4" + it[4:6] * 2 if it[3] < 7 and it[2] == 1 else it),
         "map/write/type_code",
+    ),
+    "a type resets the offset": Fault(
+        changing_too("010601", cjc_offset=0), "map/write/type_code", changes={"cjc_offset": 12}
+    ),
+    "a mask resets the offset": Fault(
+        changing_too("014626", cjc_offset=0), "rtu/46/26/set", changes={"cjc_offset": 12}
+    ),
+    "a coil resets the offset": Fault(
+        changing_too("0105", cjc_offset=0), "map/write/cjc_enabled", changes={"cjc_offset": 12}
     ),
 }
 

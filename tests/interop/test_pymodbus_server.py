@@ -1,21 +1,15 @@
 """The host against a Modbus server of pymodbus that plays a module, by RTU frames over TCP."""
 
-import asyncio
 from collections.abc import Iterator
-from threading import Thread
-from typing import Any
 
 import pytest
-from pymodbus import FramerType
-from pymodbus.server import ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
 
 from i7000 import ModbusDataFormat, Model, Profile, Protocol, TypeCode, modbus
 from i7000.host import Answered, Policy, TimedOut
 from i7000.host.procedures import identify, read
 from i7000.link import Line
-from tests.simulation import free_port
-from tests.waiting import ENOUGH
+from tests.interop.foreign import pymodbus_server
 
 WORDS = [0x4000, 0x2000, 0x0000, 0x7FFF, 0x8000, 0x1000, 0x0800, 0x0400]
 QUICK = Policy(retries=1, turnaround=1.0, grace=0.05)
@@ -24,24 +18,9 @@ QUICK = Policy(retries=1, turnaround=1.0, grace=0.05)
 @pytest.fixture
 def server() -> Iterator[str]:
     """A device at address 1 with eight input registers from 30001 on, and nothing else."""
-    port, started = free_port(), asyncio.new_event_loop()
     device = SimDevice(id=1, simdata=[SimData(0, values=WORDS, datatype=DataType.REGISTERS)])
-
-    async def serve() -> ModbusTcpServer:
-        served = ModbusTcpServer(device, framer=FramerType.RTU, address=("127.0.0.1", port))
-        await served.serve_forever(background=True)
-        return served
-
-    thread = Thread(target=started.run_forever)
-    thread.start()
-    try:
-        served: Any = asyncio.run_coroutine_threadsafe(serve(), started).result(ENOUGH)
-        yield f"socket://127.0.0.1:{port}"
-        asyncio.run_coroutine_threadsafe(served.shutdown(), started).result(ENOUGH)
-    finally:
-        started.call_soon_threadsafe(started.stop)
-        thread.join(ENOUGH)
-        started.close()
+    with pymodbus_server(device) as url:
+        yield url
 
 
 def test_what_a_server_without_46h_does_not_say_is_told(server: str) -> None:

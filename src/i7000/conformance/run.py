@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from random import Random
+from typing import Any
 
 from attrs import evolve
 
@@ -21,13 +22,14 @@ from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement
-from i7000.conformance.subject import Subject
+from i7000.conformance.subject import Sentinel, Subject
 from i7000.conformance.verdict import Difference, Lost, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom, State
 from i7000.errors import I7000Error, InvalidValueError
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
 from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snapshot, Tell, Tune
+from i7000.message import Query
 from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
@@ -77,7 +79,7 @@ class CheckResult:
     verdict: Verdict
     seconds: float = 0.0
     text: str = ""
-    """Why, in words; empty for `PASS`."""
+    """Why, in words; for `PASS`, what there is to say besides, if anything."""
     reason: SkipReason | None = None
     sent: bytes = b""
     received: bytes = b""
@@ -243,6 +245,8 @@ class Run:
         self.place = self.twin
         """Where the module is now, and how it is spoken to."""
         self._stopped: Skipped | None = None
+        self._sentinel: Sentinel | None = None
+        self._sound: dict[Query[Any], bool] = {}
         self._answering = False
         """Whether the module answered what was sent last."""
         self._lost = 0
@@ -255,20 +259,28 @@ class Run:
 
         Shape: it tells a `Begun` and a `CheckResult` for each check, in their order.
         """
-        first: BytesHeard = yield SendBytes((), 0.0)
-        self.now = self.began = first.now
-        opening = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
-        yield from opening.end_line()
-        self.guard = opening.guard
-        self.now = self.began = opening.now
+        yield from self.open()
         for group in _halves(self.planned):
             yield from self.checks(group)
+
+    def open(self) -> Procedure[None]:
+        """End what is unfinished on the line, and choose the sentinel: the first plain read that is answered right."""
+        first: BytesHeard = yield SendBytes((), 0.0)
+        self.now = first.now
+        opening = self._subject(Random(self.options.seed))  # noqa: S311 - repeatable
+        yield from opening.end_line()
+        yield from opening.find_sentinel()
+        self.guard, self._sentinel = opening.guard, opening.known
+        self.now = self.began = opening.now
 
     def _subject(self, chance: Random) -> Subject:
         scale, writes = self.options.timeout_scale, self.options.writes - self.writes
         now, state = self.now or 0.0, self.twin.state
         twin = Twin(state.keep(fed_at=now)) if state.ram.protocol is Protocol.MODBUS_RTU else self.twin  # E106
-        return Subject(twin, self.line, scale, chance, now, self.guard, writes, self.options.claims)
+        claims = self.options.claims
+        return Subject(
+            twin, self.line, scale, chance, now, self.guard, writes, claims, sound=self._sound, known=self._sentinel
+        )
 
     def checks(self, group: Sequence[Planned]) -> Procedure[None]:
         """Carry out a check and its negative halves, and tell what became of them."""
@@ -326,7 +338,8 @@ class Run:
         self.may_have_changed |= bool(statement.hazards & _STORED)
         started = self.now
         heard: list[object] = []
-        verdict, reason = Verdict.PASS, None
+        verdict = Verdict.PASS
+        reason: Reason | None = None
         steps = STEPS[statement.id](subject)
         try:
             yield from self._steps(steps, subject, heard)
@@ -348,6 +361,8 @@ class Run:
             self.writes += writes
         seconds = self.now - started
         yield from self._back(statement, subject, verdict)
+        if reason is None:
+            return CheckResult(statement, verdict, seconds, subject.remark, writes=writes)
         return _result(statement, verdict, reason, seconds, writes)
 
     def _steps(self, steps: Procedure[None], subject: Subject, heard: list[object]) -> Procedure[None]:
@@ -372,7 +387,7 @@ class Run:
 
     def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
         """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
-        failed = verdict is Verdict.ERROR and bool(statement.hazards & _STORED)
+        failed = verdict in (Verdict.ERROR, Verdict.FAIL) and bool(statement.hazards & _STORED)
         elsewhere = _whereabouts(subject.twin.state) != _whereabouts(self.twin.state)
         if self.before is not None and (failed or elsewhere):
             try:
@@ -426,9 +441,7 @@ def _is_evidence(answer: object) -> bool:
     return isinstance(answer, Result) and isinstance(answer.outcome, Answered | Declined)
 
 
-def _result(statement: Statement, verdict: Verdict, reason: Reason | None, seconds: float, writes: int) -> CheckResult:
-    if reason is None:
-        return CheckResult(statement, verdict, seconds, writes=writes)
+def _result(statement: Statement, verdict: Verdict, reason: Reason, seconds: float, writes: int) -> CheckResult:
     return CheckResult(
         statement,
         verdict,

@@ -1,21 +1,22 @@
 """The module under test, as checks see it: what they send to it, and which of its answers are allowed.
 
 Laws: every method of a check ends, on every line. What the module should not answer is always followed by a sentinel, a
-plain read that every module answers: only its answer shows that the module was there and chose to be silent.
+plain read that it answered when the run began: only its answer shows that the module was there and chose to be silent.
 """
 
 from collections.abc import Iterable
 from random import Random
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from i7000 import dcon, modbus
 from i7000.conformance.allowed import LINE_END, SILENCE
 from i7000.conformance.guard import Guard, GuardError, hazards_of
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
-from i7000.conformance.oracle import Answer, Twin, difference, is_exact
+from i7000.conformance.oracle import Answer, Twin, difference, is_exact, rows_of
 from i7000.conformance.verdict import Difference, Lost, Skipped, SkipReason
+from i7000.frozen import frozen
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tune, Wait
 from i7000.message import Query, Response
 from i7000.models import Model
@@ -25,7 +26,7 @@ from i7000.settings import LineSettings, Protocol
 if TYPE_CHECKING:
     from i7000.conformance.claims import Claims
 
-__all__ = ["Subject"]
+__all__ = ["Sentinel", "Subject"]
 
 R = TypeVar("R", bound=Response)
 
@@ -39,6 +40,18 @@ _PAUSE = 0.3
 """How often a module that answers no more is looked for, and the pause in seconds before that."""
 _QUIET = {Protocol.DCON: 0.02, Protocol.MODBUS_RTU: 0.05}
 """The silence in seconds that ends an answer."""
+
+
+@frozen
+class Sentinel:
+    """A plain read that the module answered when the run began: the place of it among those that were tried."""
+
+    protocol: Protocol
+    place: int
+    right: bytes | None
+    """What the twin answered to it then."""
+    heard: bytes
+    """What the module answered to it then."""
 
 
 @define
@@ -63,6 +76,13 @@ class Subject:
     """The statement of the module, if one was given."""
     answering: bool = False
     """Whether the module answered what was sent last before the check."""
+    sound: dict[Query[Any], bool] = field(factory=dict)
+    """Whether the reads of settings, at address 01, were answered right before the first change of the run."""
+
+    known: Sentinel | None = None
+    """The sentinel of the run; None for the first of the plain reads."""
+    remark: str = ""
+    """What a check that passes has to say."""
 
     @property
     def protocol(self) -> Protocol:
@@ -96,10 +116,37 @@ class Subject:
 
     @property
     def sentinel(self) -> Query[Any]:
-        """The read that shows that the module is there: it always has the same answer."""
+        """The read that shows that the module is there."""
+        known = self.known
+        return self._plain_reads()[known.place if known is not None and known.protocol is self.protocol else 0]
+
+    def _plain_reads(self) -> tuple[Query[Any], ...]:
+        address = self.address
         if self.protocol is Protocol.DCON:
-            return dcon.ReadModuleName(self.address)
-        return modbus.ReadModuleName(self.address)
+            return dcon.ReadModuleName(address), dcon.ReadConfiguration(address), dcon.ReadFirmwareVersion(address)
+        row = next(row for row in rows_of(self.profile) if row.name == "module_address")
+        own_address = modbus.ReadHoldingRegisters(address, row.address, row.count)
+        return modbus.ReadModuleName(address), own_address, modbus.ReadInputRegisters(address, 0, 1)
+
+    def find_sentinel(self) -> Procedure[None]:
+        """Choose the first of the plain reads that the module answers right; without one it stays the first."""
+        for place, query in enumerate(self._plain_reads()):
+            wire = self.wire(query)
+            answer = self.hear(wire)
+            heard = (yield from self.send(wire)).wire
+            if heard and difference(answer, heard) is None:
+                self.known = Sentinel(self.protocol, place, answer.wire, heard)
+                return
+
+    def hear_sentinel(self) -> Answer:
+        """Give the twin the sentinel, and return the answer of the module to expect.
+
+        Special: it is what the module answered when the run began, as long as the twin answers the same as then.
+        """
+        answer, known = self.hear(self.wire(self.sentinel)), self.known
+        if known is None or known.protocol is not self.protocol or known.right != answer.wire:
+            return answer
+        return evolve(answer, wire=known.heard)
 
     def wire(self, query: Query[Any]) -> bytes:
         """Return the frame of a command or request, even of one that the module does not have."""
@@ -108,7 +155,7 @@ class Subject:
         return wire
 
     def seal(self, body: bytes) -> bytes:
-        """Return a frame with a right checksum or CRC around a body of any content: for DCON, without CR."""
+        """Return the frame of a body of any content: with its CRC, or for DCON its checksum and carriage return."""
         return (
             modbus.seal(body)
             if self.protocol is Protocol.MODBUS_RTU
@@ -275,11 +322,11 @@ class Subject:
             check began, and does not answer any more.
         """
         wire = self.wire(self.sentinel)
-        answer = self.hear(wire)
+        answer = self.hear_sentinel()
         heard = (yield from self.send(wire)).wire
         if not heard:
             yield from self._lost(after + wire)
-        if heard != answer.wire:
+        if difference(answer, heard):
             text = "the next request has another answer"
             expected = f"silence, then {_words(answer.wire or b'')}"
             raise self.wrong(text, after + wire, heard, expected, answer.wire or b"")

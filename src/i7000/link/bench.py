@@ -93,6 +93,7 @@ class Bench:
         """All checks, in the order of a run."""
         checksum = found.protocol is Protocol.DCON and known.checksum
         self._run = Run(self.planned, eeprom, Options(allowed=allowed), line=self._line.line, checksum=checksum)
+        self._line.run(self._run.open())
         self._by_id = {it.statement.id: it for it in self.planned}
         self._results: dict[str, CheckResult] = {}
         self._begun = False

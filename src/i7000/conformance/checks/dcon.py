@@ -14,7 +14,7 @@ from i7000 import dcon
 from i7000.conformance.checks import dcon_calibration, dcon_line, dcon_settings
 from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, one_digit, with_tail
 from i7000.conformance.subject import Subject
-from i7000.conformance.verdict import Note
+from i7000.conformance.verdict import Note, Skipped, SkipReason
 from i7000.errors import DecodeError
 from i7000.host.procedures import Procedure
 
@@ -87,9 +87,13 @@ def _channel_not_longer(command: OfChannel, module: Subject) -> Procedure[None]:
 
 
 def _no_more_channels(command: OfChannel, module: Subject) -> Procedure[None]:
-    digits = module.profile.channel_digits
-    for channel in beyond(module.channels, digits):
+    channels = beyond(module.channels, module.profile.channel_digits)
+    for channel in channels:
         yield from module.expect(command(module.address, channel))
+    if command is dcon.ReadAnalogInput:  # another letter could be a command of a vendor
+        if not channels:
+            raise Skipped(SkipReason.NOT_APPLICABLE, f"{module.profile.name} has a channel for each digit")
+        return
     bodies = [body_of(module, command(module.address, channel)) for channel in (0, 1)]
     at = next(at for at, pair in enumerate(zip(*bodies, strict=True)) if len(set(pair)) > 1)
     yield from not_carried_out(module, module.seal(bodies[0][:at] + b"G" + bodies[0][at + 1 :]) + b"\r")
@@ -168,17 +172,19 @@ def _host_ok(module: Subject, *, tail: bool = False) -> Procedure[None]:
 
 # --- unknown commands -------------------------------------------------------------------------------------------------
 
-_UNKNOWN = ("$%02XZ", "~%02XZ", "@%02XZ", "$%02X", "~%02X", "@%02X")
-"""Bodies that no model has as a command."""
+_UNKNOWN = ("$%02XZ", "~%02XZ", "@%02XZ", "#%02XG")
+"""Bodies that no model has as a command; they could be commands of a vendor that no manual has."""
+_BARE = ("$%02X", "~%02X", "@%02X")
+"""Bodies that end before the letter of a command."""
 
 
-def _unknown(module: Subject) -> Procedure[None]:
-    bodies = [(form % module.address).encode() for form in _UNKNOWN]
+def _no_commands(forms: tuple[str, ...], module: Subject) -> Procedure[None]:
+    bodies = [(form % module.address).encode() for form in forms]
     yield from not_carried_out(module, *(module.seal(body) + b"\r" for body in bodies))
 
 
 def _way_of_refusal(module: Subject) -> Procedure[None]:
-    body = (_UNKNOWN[0] % module.address).encode()
+    body = (_BARE[0] % module.address).encode()
     heard = yield from module.expect_one_of(module.seal(body) + b"\r", (None, module.refused))
     raise Note(f"an unknown command is answered with {'silence' if heard is None else _text(heard)}", erratum="E27")
 
@@ -234,7 +240,8 @@ STEPS: dict[str, Steps] = {
     **dcon_settings.STEPS,
     **dcon_line.STEPS,
     **dcon_calibration.STEPS,
-    "dcon/2/unknown-command": _unknown,
+    "dcon/2/unknown-command": partial(_no_commands, _UNKNOWN),
+    "dcon/2/bare": partial(_no_commands, _BARE),
     "dcon/2/way-of-refusal": _way_of_refusal,
     "dcon/2/of-other-models": _of_other_models,
 }

@@ -9,6 +9,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import dcon
+from i7000.conformance.checks.others import others_known, others_unchanged
 from i7000.conformance.checks.steps import (
     Steps,
     beyond,
@@ -82,12 +83,14 @@ def _set_type(module: Subject) -> Procedure[None]:
     new, old = (dcon.SetChannelTypeCode(module.address, channel, code) for code in (other_type(module, now), now))
     reads = [dcon.ReadChannelTypeCode(module.address, each) for each in (channel, *module.channels[:-1])]
     module.reserve(2)
+    yield from others_known(module)
     try:
         yield from module.expect(new)
         yield from module.wait(SETTLING)
         for read in reads:
             yield from module.expect(read)
         yield from module.expect(dcon.ReadAnalogInputs(module.address))
+        yield from others_unchanged(module, module.channels)
     except Reason:
         yield from put_back(module, old)
         raise
@@ -148,11 +151,13 @@ def _is_update(module: Subject, right: CjcUpdate) -> Procedure[None]:
 def _set_update(module: Subject) -> Procedure[None]:
     now = yield from _update_now(module)
     old = dcon.SetCjcUpdate(module.address, now)
+    yield from others_known(module)
     try:
         for update in (CjcUpdate.STOPPED, CjcUpdate.STARTED):
             yield from module.expect(dcon.SetCjcUpdate(module.address, update))
             yield from _is_update(module, update)
         yield from module.expect(dcon.SetCjcUpdate(module.address, CjcUpdate.ONCE))
+        yield from others_unchanged(module, module.channels)
     except Reason:
         yield from put_back(module, old)
         raise
@@ -241,12 +246,15 @@ def _set_mode(module: Subject) -> Procedure[None]:
     now = _memory(module).single_ended
     old = _mode(module, single_ended=now)
     module.reserve(2)
+    yield from others_known(module)
+    channels = module.channels
     try:
         yield from module.expect(_mode(module, single_ended=not now))
         yield from module.expect(dcon.ReadConnectingMode(module.address))
         untyped = evolve(module.profile, type_codes=())  # those of channels that have just appeared are unknown
         yield from told(module, dcon.ReadAnalogInputs(module.address), untyped)
         yield from told(module, dcon.ReadChannelMask(module.address), untyped)
+        yield from others_unchanged(module, channels)
     except Reason:
         yield from put_back(module, old)
         raise

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 
 from i7000 import dcon, modbus
 from i7000.conformance.checks.steps import Steps
+from i7000.conformance.oracle import difference
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Skipped, SkipReason
 from i7000.host.procedures import Procedure
@@ -16,6 +17,8 @@ __all__ = ["STEPS"]
 
 _PAUSE = 0.06
 """The pause in seconds between frames that are all for nobody."""
+_SETTLED = 0.15
+"""How long an answer to garbage is waited for, in seconds."""
 _LONG = 300
 """More characters than any frame has."""
 
@@ -34,7 +37,7 @@ def _either(frame: Callable[[Subject], bytes], what: str) -> Steps:
 
     def steps(module: Subject) -> Procedure[None]:
         wire = frame(module)
-        answer = module.hear(module.wire(module.sentinel)).wire
+        answer = module.hear_sentinel().wire
         heard = yield from module.expect_one_of(wire, (None, answer))
         raise Note(f"{what} {'is not' if heard is None else 'is'} answered", sent=wire, received=heard or b"")
 
@@ -50,9 +53,9 @@ def _carriage_return(module: Subject) -> Procedure[None]:
     heard = (yield from module.send(body, seconds=0.3)).wire
     if heard:
         raise module.wrong("answered without a carriage return", body, heard, "silence")
-    answer = module.hear(wire).wire
+    answer = module.hear_sentinel()
     heard = (yield from module.send(end)).wire
-    if heard != answer:
+    if difference(answer, heard):
         raise module.wrong("the carriage return did not end the command", body + end, heard, "the answer to it")
 
 
@@ -80,7 +83,8 @@ def _high_digit(digits: bytes) -> bytes:
 def _lower_sum(module: Subject) -> Procedure[None]:
     if not module.profile.checksum:
         raise Skipped(SkipReason.NOT_APPLICABLE, "the module uses no checksum")
-    for query in (module.sentinel, dcon.ReadConfiguration(module.address), dcon.ReadFirmwareVersion(module.address)):
+    address = module.address
+    for query in (dcon.ReadModuleName(address), dcon.ReadConfiguration(address), dcon.ReadFirmwareVersion(address)):
         wire = module.wire(query)
         lower = wire[:-3] + wire[-3:].lower()
         if lower != wire:
@@ -161,7 +165,55 @@ def _long_frames(module: Subject) -> Iterable[bytes]:
     return (modbus.seal(bytes((module.address, 4)) + bytes(_LONG)),)
 
 
+# --- what comes after it ----------------------------------------------------------------------------------------------
+
+Garbage = Callable[[Subject], Iterable[tuple[str, bytes]]]
+"""Returns what is no frame for the module, each with its name."""
+
+
+def _recovers(garbage: Garbage) -> Steps:
+    """Return the steps that send garbage, and a request after each: it is answered, whatever became of the garbage."""
+
+    def steps(module: Subject) -> Procedure[None]:
+        request = module.wire(module.sentinel)
+        for name, wire in garbage(module):
+            yield from module.send(wire, seconds=_SETTLED)
+            answer = module.hear_sentinel()
+            heard = (yield from module.send((_PAUSE, request))).wire
+            if difference(answer, heard):
+                text = f"a request after {name} is {'answered otherwise' if heard else 'not answered'}"
+                raise module.wrong(text, wire + request, heard, "the answer to the request", answer.wire or b"")
+
+    return steps
+
+
+def _garbage_of_dcon(module: Subject) -> Iterable[tuple[str, bytes]]:
+    address = b"%02X" % module.address
+    if module.profile.checksum:
+        wire = module.wire(module.sentinel)
+        yield "a wrong checksum", wire[:-3] + _other_sum(wire[-3:-1]) + b"\r"
+    yield "half a command", b"$" + address[:1] + b"\r"
+    yield "a command without its letter", module.seal(b"$" + address)
+    yield "a command to another address", next(iter(_foreign_dcon(module)))
+    yield "an answer of another module", module.seal(b"!%02X" % _others(module.address, 0xFF)[0])
+    yield "long text", next(iter(_too_long(module)))
+    yield "a carriage return", b"\r"
+
+
+def _garbage_of_modbus(module: Subject) -> Iterable[tuple[str, bytes]]:
+    wire = module.wire(module.sentinel)
+    yield "a wrong CRC", wire[:-1] + bytes((wire[-1] ^ 0x01,))
+    yield "a truncated request", wire[: len(wire) // 2]
+    yield "a single byte", wire[:1]
+    yield "a request to another address", next(iter(_foreign_units(module)))
+    yield "an answer of another module", next(iter(_answers_of_others(module)))
+    yield "a long request", next(iter(_long_frames(module)))
+    yield "text", b"U" * _LONG + b"\r"
+
+
 STEPS: dict[str, Steps] = {
+    "frame/recovers/dcon": _recovers(_garbage_of_dcon),
+    "frame/recovers/rtu": _recovers(_garbage_of_modbus),
     "frame/dcon/end": _carriage_return,
     "frame/dcon/checksum-wrong": _summed(_other_sum),
     "frame/dcon/checksum-wrong-high-digit": _summed(_high_digit),

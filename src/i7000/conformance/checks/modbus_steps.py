@@ -12,6 +12,7 @@ from typing import Any
 from attrs import evolve
 
 from i7000 import modbus
+from i7000.conformance.checks.others import others_known, others_unchanged
 from i7000.conformance.oracle import Twin, difference
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Reason, Unclear
@@ -180,13 +181,18 @@ def changed_and_restored(
 ) -> Procedure[None]:
     """Carry out the steps that change a setting, and then those that restore it, whatever comes of the first.
 
+    All other settings are read between the two, and must be as before.
+
     Shape: `frames` is how many writes each of them sends.
     Special: what fails is restored, or restored once more.
     Errors: `Skipped` if not enough writes are left for that: nothing is sent then.
     """
     module.reserve(3 * frames)
+    yield from others_known(module)
+    channels = module.channels
     try:
         yield from change
+        yield from others_unchanged(module, channels)
         yield from restore()
     except Reason:
         with suppress(Reason):

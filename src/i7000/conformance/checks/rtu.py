@@ -23,8 +23,9 @@ from i7000.conformance.checks.modbus_steps import (
     runs,
 )
 from i7000.conformance.checks.steps import Steps
+from i7000.conformance.oracle import difference
 from i7000.conformance.subject import Subject
-from i7000.conformance.verdict import Skipped, SkipReason
+from i7000.conformance.verdict import Skipped, SkipReason, Strange
 from i7000.host.procedures import Procedure
 from i7000.modbus import Area
 from i7000.modbus.register_map import READERS
@@ -34,8 +35,8 @@ __all__ = ["STEPS"]
 Writer = type[modbus.Request[Any]]
 
 _PRINTED = (Area.DISCRETE_INPUT, Area.INPUT_REGISTER)
-_NO_FUNCTION = {0x41: b"", 0x45: b"", 0x47: b"", 0x64: b"", 0x6E: b""}
-"""Function codes that no specification has, and what follows them."""
+_NO_FUNCTION = {0x19: b"", 0x30: b"", 0x4F: b"", 0x5C: b"", 0x70: b""}
+"""Function codes that no specification has, and what follows them; 41h to 48h and 64h to 6Eh are for vendors."""
 _OTHER_FUNCTIONS = {0x07: b"", 0x08: b"\0\0\x12\x34", 0x0B: b"", 0x11: b"", 0x2B: b"\x0e\x01\x00"}
 """Functions of the Modbus specification that only read, and what follows them."""
 _RESERVED_ADDRESSES = (248, 255)
@@ -146,6 +147,37 @@ def _wrong_lengths(area: Area, module: Subject) -> Procedure[None]:
         yield from refused(module, wrong, VALUE, silence=area not in _PRINTED)
 
 
+def _padding(area: Area, module: Subject) -> Procedure[None]:
+    """Read a few bits: those of the last byte that are beyond them are 0, but nobody checks them (E120)."""
+    rows = max(runs(module, area), key=lambda run: sum(row.count for row in run))
+    for count in sorted({1, min(7, sum(row.count for row in rows))}):
+        wire = module.wire(READERS[area](module.address, rows[0].address, count))
+        answer = module.hear(wire)
+        heard = (yield from module.send(wire)).wire
+        if not heard:
+            yield from module.alive(wire)
+        if found := difference(answer, heard):
+            raise module.wrong(found, wire, heard, (answer.wire or b"").hex(" "))
+        if heard[_BITS] >> count:
+            raise Strange(
+                "bits beyond those that were asked for are not 0",
+                sent=wire,
+                received=heard,
+                expected=f"{count} bits, then zeros",
+                erratum="E120",
+            )
+
+
+_BITS = 3
+"""The place of the first eight bits of an answer."""
+
+
+def _around(area: Area, module: Subject) -> Procedure[None]:
+    """Read from the last address on, to beyond it."""
+    for start, count in ((0xFFFF, 2), (0xFFF0, 0x18)):
+        yield from refused(module, _body(area, start, count), ADDRESS_OR_VALUE)
+
+
 # --- writes -----------------------------------------------------------------------------------------------------------
 
 
@@ -168,6 +200,17 @@ _WRONG_WRITES: dict[Writer, tuple[bytes, ...]] = {
 
 def _not_written_there(writer: Writer, module: Subject) -> Procedure[None]:
     yield from refused(module, bytes((writer.function,)) + _NO_ITEM + _WRONG_STARTS[writer], ADDRESS_OR_VALUE)
+
+
+_AROUND: dict[Writer, bytes] = {
+    modbus.WriteMultipleCoils: b"\xff\xff\0\2\1\0",
+    modbus.WriteMultipleRegisters: b"\xff\xff\0\2\4\0\0\0\0",
+}
+"""The functions that write several items, and a start, a count and values that go beyond the last address."""
+
+
+def _not_written_around(writer: Writer, module: Subject) -> Procedure[None]:
+    yield from refused(module, bytes((writer.function,)) + _AROUND[writer], ADDRESS_OR_VALUE)
 
 
 def _not_written_so(writer: Writer, module: Subject) -> Procedure[None]:
@@ -199,6 +242,9 @@ STEPS: dict[str, Steps] = {
     **{f"rtu/{_CODES[area]}/counts": partial(_counts, area) for area in Area},
     **{f"rtu/{_CODES[area]}/counts-n1": partial(_wrong_counts, area) for area in Area},
     **{f"rtu/{_CODES[area]}/counts-n2": partial(_wrong_starts, area) for area in Area},
+    **{f"rtu/{_CODES[area]}/around": partial(_around, area) for area in Area},
+    **{f"rtu/{_CODES[area]}/padding": partial(_padding, area) for area in Area if area.bits},
+    **{f"rtu/{writer.function:02X}/around": partial(_not_written_around, writer) for writer in _AROUND},
     **{f"rtu/{_CODES[area]}/length": partial(_wrong_lengths, area) for area in Area},
     **{f"rtu/{writer.function:02X}/start": partial(_not_written_there, writer) for writer in _WRONG_STARTS},
     **{f"rtu/{writer.function:02X}/values": partial(_not_written_so, writer) for writer in _WRONG_WRITES},

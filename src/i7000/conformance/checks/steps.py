@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
 from i7000 import dcon
+from i7000.conformance.checks.others import others_known, others_unchanged
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Reason
 from i7000.errors import DecodeError
@@ -88,12 +89,18 @@ def beyond(channels: Iterable[int], digits: int) -> list[int]:
 
 
 def changed(module: Subject, new: Query[Any], old: Query[Any], *reads: Query[Any]) -> Procedure[None]:
-    """Change a setting, read what depends on it, and change it back; it is changed back too if something is wrong."""
+    """Change a setting, read what depends on it and all other settings, and change it back.
+
+    Special: it is changed back too if something is wrong.
+    """
     module.reserve(2)
+    yield from others_known(module)
+    channels = module.channels
     try:
         yield from module.expect(new)
         for read in reads:
             yield from module.expect(read)
+        yield from others_unchanged(module, channels)
     except Reason:
         yield from put_back(module, old)
         raise

@@ -178,6 +178,7 @@ def _each_type(
         yield from put_back(module, old)
         raise
     yield from module.expect(old)
+    module.remark = f"types tried: {', '.join(f'{code:02X}' for code in codes)}"
 
 
 def _of_type(module: Subject, code: TypeCode) -> Procedure[None]:
