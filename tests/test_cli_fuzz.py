@@ -35,6 +35,10 @@ class Fragile(VirtualPort):
                 self._bus = Bus(tuple(it.store(type_codes=(TypeCode.K,) * 8) for it in self._bus.modules))
         return len(data) if self.broken else super().write(data)
 
+    def rename(self, name: str) -> None:
+        """Store another name."""
+        self._bus = Bus(tuple(it.store(name=name) for it in self._bus.modules))
+
     def power_cycle(self, *, init_switch: bool | None = None) -> None:
         self.broken = False
         super().power_cycle(init_switch=init_switch)
@@ -121,12 +125,12 @@ def test_a_setting_that_the_sentinel_does_not_show_is_reported(
 
     def renamed(*_: Any) -> bytes:
         if not sent:
-            port._bus = Bus(tuple(it.store(name="OTHER") for it in port._bus.modules))
+            port.rename("OTHER")
         sent.append(True)
         return b"!02\r"
 
     def restarted(**_: Any) -> None:
-        port._bus = Bus(tuple(it.store(name="7018") for it in port._bus.modules))
+        port.rename("7018")
 
     monkeypatch.setattr("i7000.cli.fuzzing.near_miss", renamed)
     if not kept:
