@@ -164,7 +164,7 @@ def test_a_check_that_a_module_does_not_pass_shows_the_bytes(
     port = Longer([power_on(factory(Model.I_7018), now=0.0)])
     monkeypatch.setattr("i7000.link.bench.open_target", lambda *_: port)
 
-    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "--i7000-model", "I-7018", "-k", "stateful")
+    result = check("-p", "no:xdist", "--i7000-target", "sim:I-7018", "--i7000-model", "I-7018", "-k", "2.10")
 
     result.stdout.fnmatch_lines(["required *", "sent * 24 30 31 32 0d", "received *30 0d"])
     assert result.ret == 1

@@ -574,3 +574,11 @@ def test_arguments_of_other_types_are_refused() -> None:
         judge(Judge(), heard, Knowledge(), 1.0)  # type: ignore[arg-type]
     with pytest.raises(ArgumentError):
         verdict(1)  # type: ignore[arg-type]
+
+
+def test_an_answer_that_the_host_sends_itself_is_not_held_against_the_module() -> None:
+    line, heard = hear_frame(Line(), b"!017018\r", Protocol.DCON, sent=True)
+
+    state, findings = judge(Judge(), heard, line.knowledge, sent=True)
+
+    assert (findings, state.unjudged) == ((), 1)

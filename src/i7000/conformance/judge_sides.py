@@ -22,11 +22,11 @@ _RTU = Protocol.MODBUS_RTU
 
 
 def side_of(state: Judge, heard: Heard, times: Times | None, sent: bool | None) -> Side | None:  # noqa: FBT001
-    """Return the side that a frame came from; None for noise and echoes."""
+    """Return the side that a frame came from; None for noise, echoes, and the answers that a host sends itself."""
     if heard.error is None and heard.same_as is not None:
         return None if _is_echo(state, heard, times) else Side.DRIVER
     if heard.direction is Direction.RESPONSE:
-        return _module_or_noise(state, heard)
+        return None if sent else _module_or_noise(state, heard)
     if heard.direction is not None:
         return Side.MODULE if _is_wrong_echo(state, heard, times, sent) else Side.DRIVER
     return _side_of_damage(state, heard, times, sent)
