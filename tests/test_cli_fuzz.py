@@ -35,6 +35,10 @@ class Fragile(VirtualPort):
                 self._bus = Bus(tuple(it.store(type_codes=(TypeCode.K,) * 8) for it in self._bus.modules))
         return len(data) if self.broken else super().write(data)
 
+    def rename(self, name: str) -> None:
+        """Store another name."""
+        self._bus = Bus(tuple(it.store(name=name) for it in self._bus.modules))
+
     def power_cycle(self, *, init_switch: bool | None = None) -> None:
         self.broken = False
         super().power_cycle(init_switch=init_switch)
@@ -112,10 +116,49 @@ def test_a_port_that_cannot_be_restarted_gives_all_frames_since_the_last_answer(
     assert 1 < len(case["frames"]) <= 20
 
 
-def test_a_module_that_does_not_answer_the_sentinel_at_the_start_is_not_fuzzed(run: Run, fragile: Any) -> None:
+@pytest.mark.parametrize(("kept", "code"), [(True, 6), (False, 1)])
+def test_a_setting_that_the_sentinel_does_not_show_is_reported(
+    run: Run, fragile: Any, monkeypatch: pytest.MonkeyPatch, *, kept: bool, code: int
+) -> None:
     port = fragile(lambda _: False)
-    assert run("fuzz", "sim:I-7018", "--frames", "1", *QUICK).code == 0
-    asked = len(port.written) - port.written[::-1].index(b"$012\r", 2)
+    sent = []
+
+    def renamed(*_: Any) -> bytes:
+        if not sent:
+            port.rename("OTHER")
+        sent.append(True)
+        return b"!02\r"
+
+    def restarted(**_: Any) -> None:
+        port.rename("7018")
+
+    monkeypatch.setattr("i7000.cli.fuzzing.near_miss", renamed)
+    if not kept:
+        monkeypatch.setattr(port, "power_cycle", restarted)
+
+    told = run("fuzz", "sim:I-7018", "--frames", "20", *QUICK)
+
+    assert told.code == code
+    assert "name was 7018, is OTHER" in told.err
+
+
+def test_settings_that_differ_after_a_lost_sentinel_are_reported_too(run: Run, fragile: Any) -> None:
+    fragile(lambda wire: wire.startswith(b"#01") and len(wire) > 8, stores=True)
+
+    told = run("fuzz", "sim:I-7018", "--frames", "2000", *QUICK)
+
+    assert told.code == 6
+    assert "has other settings now: " in told.err
+
+
+def test_a_module_that_does_not_answer_the_sentinel_at_the_start_is_not_fuzzed(
+    run: Run, fragile: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    port = fragile(lambda _: False)
+    with monkeypatch.context() as patched:
+        patched.setattr("i7000.cli.fuzzing.near_miss", lambda *_: b"!marker\r")
+        assert run("fuzz", "sim:I-7018", "--frames", "1", *QUICK).code == 0
+    asked = port.written.index(b"!marker\r")
     port = fragile(lambda _: len(port.written) == asked)
 
     told = run("fuzz", "sim:I-7018", *QUICK)

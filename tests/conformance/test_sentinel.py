@@ -67,6 +67,13 @@ def test_a_module_that_lacks_a_plain_request_fails_the_check_of_it_only(name: st
     assert bad(rtu(), lacking) == dict.fromkeys(ids, Verdict.FAIL)
 
 
+def test_old_firmware_without_a_register_of_its_address_has_a_sentinel_too() -> None:
+    old = memory(Model.M_7017, "A1.0", protocol=Protocol.MODBUS_RTU)
+    lacking = answering(lambda frame, wire: None if frame.startswith(b"\1\x46\0") else wire)
+
+    assert checked(["frame/rtu"], old, lacking)["frame/rtu/address"].verdict is Verdict.PASS
+
+
 @pytest.mark.parametrize("eeprom", [memory(R), rtu()], ids=["dcon", "modbus"])
 def test_a_module_that_answers_nothing_passes_nothing(eeprom: Eeprom) -> None:
     results = checked(SOME, eeprom, answering(lambda _, __: None), allowed=DEFAULT_ALLOWED)

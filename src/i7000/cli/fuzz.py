@@ -43,6 +43,8 @@ def fuzz(  # noqa: PLR0913 - each of them is an option
     the run stops. With `sim:` and `exec:` the module is restarted then, and the frames are sent again with parts left
     out, until only those remain that are needed.
 
+    All settings are read before and after the run. Each one that differs is reported.
+
     The case has the keys `record` (`fuzz-case`), `schema_version`, `target`, `address`, `protocol`, `profile`, `seed`,
     `outcome` (`silent` or `changed`), `sentinel` and `frames` (in hex), `text` (the frames for people), `reproduced`
     and `tries`.
@@ -51,9 +53,9 @@ def fuzz(  # noqa: PLR0913 - each of them is an option
 
     Example: `i7000 fuzz exec:./firmware --report case.json`
 
-    Exit code: 0 if the module answered to the end, 1 if it stopped answering; 2 for wrong usage, 3 if the port cannot
-    be opened or the module does not answer at the start; 5 if no frame was sent, 6 if its settings are not those of
-    the start; 130 after Ctrl-C.
+    Exit code: 0 if the module answered to the end, 1 if it stopped answering, or had other settings until a restart;
+    2 for wrong usage, 3 if the port cannot be opened or the module does not answer at the start; 5 if no frame was
+    sent, 6 if its settings are not those of the start; 130 after Ctrl-C.
     """
     from i7000.cli.fuzzing import Plan, run  # noqa: PLC0415 - it takes time
 

@@ -22,7 +22,7 @@ from i7000.conformance import GuardError
 from i7000.conformance.fuzzing import fewest, near_miss, reads, sentinel
 from i7000.errors import written
 from i7000.host import Answered
-from i7000.host.procedures import ask
+from i7000.host.procedures import Snapshot, ask, diff, snapshot
 from i7000.link import GuardedPort
 from i7000.link.port import clock_of, read, write
 from i7000.message import Query, Response
@@ -85,6 +85,17 @@ class _Run:
         outcome = self.module.open.finish(ask(self.sentinel, self.module.profile)).outcome
         return outcome.response if isinstance(outcome, Answered) else None
 
+    def settings(self) -> Snapshot:
+        """Read all settings; what the guard refuses is not read."""
+        module = self.module
+        return module.open.run(snapshot(module.address, module.profile, module.protocol))
+
+    def settings_again(self) -> Snapshot:
+        """Read all settings again, after a restart if the port can do that."""
+        if hasattr(self.port, "power_cycle"):
+            self.port.power_cycle()
+        return self.settings()
+
     def send(self, wire: bytes) -> bool:
         """Send a frame and drop what comes; return False if the guard refuses it."""
         try:
@@ -110,6 +121,7 @@ class _Run:
 def _fuzz(open_line: OpenLine, plan: Plan, printer: Printer) -> int:
     module = reach(open_line, plan.asked, printer.note)
     this = _Run(module, sentinel(module.protocol, module.address), plan.asked.policy.turnaround)
+    before = this.settings()
     with open_line.ending.breakable():
         this.first = this.answer()
         if this.first is None:
@@ -117,6 +129,9 @@ def _fuzz(open_line: OpenLine, plan: Plan, printer: Printer) -> int:
             return 3
         outcome = _send_all(this, plan)
     text = f"{this.sent} frames sent, {this.refused} left out by the guard"
+    if not outcome and (changes := _changes(before, this.settings())):
+        printer.error(f"{module.words} has other settings after {text}: {', '.join(changes)}")
+        return LEFT_CHANGED if _changes(before, this.settings_again()) else 1
     if not outcome:
         printer.record({"sent": this.sent, "refused": this.refused}, [[(f"{module.words}: {text}, all answered", "")]])
         return 0 if this.sent else _NOTHING_SENT
@@ -129,7 +144,19 @@ def _fuzz(open_line: OpenLine, plan: Plan, printer: Printer) -> int:
     if plan.report is not None:
         with plan.report.open("x", encoding="utf-8") as file:
             file.write(f"{words}\n")
-    return LEFT_CHANGED if outcome == "changed" else 1
+    changes = _changes(before, this.settings())
+    if changes:
+        printer.error(f"{module.words} has other settings now: {', '.join(changes)}")
+    return LEFT_CHANGED if outcome == "changed" or changes else 1
+
+
+def _changes(before: Snapshot, after: Snapshot) -> list[str]:
+    """Return the settings that were read both times and differ, in words."""
+    return [
+        f"{it.name} was {it.before}, is {it.after}"
+        for it in diff(before, after)
+        if it.before is not None and it.after is not None
+    ]
 
 
 def _send_all(this: _Run, plan: Plan) -> str:

@@ -118,15 +118,17 @@ class Subject:
     def sentinel(self) -> Query[Any]:
         """The read that shows that the module is there."""
         known = self.known
-        return self._plain_reads()[known.place if known is not None and known.protocol is self.protocol else 0]
+        if known is None or known.protocol is not self.protocol or not known.place:
+            return (dcon if self.protocol is Protocol.DCON else modbus).ReadModuleName(self.address)
+        return self._plain_reads()[known.place]
 
     def _plain_reads(self) -> tuple[Query[Any], ...]:
         address = self.address
         if self.protocol is Protocol.DCON:
             return dcon.ReadModuleName(address), dcon.ReadConfiguration(address), dcon.ReadFirmwareVersion(address)
-        row = next(row for row in rows_of(self.profile) if row.name == "module_address")
-        own_address = modbus.ReadHoldingRegisters(address, row.address, row.count)
-        return modbus.ReadModuleName(address), own_address, modbus.ReadInputRegisters(address, 0, 1)
+        rows = [row for row in rows_of(self.profile) if row.name == "module_address"]  # old firmware has none
+        own_address = [modbus.ReadHoldingRegisters(address, row.address, row.count) for row in rows]
+        return modbus.ReadModuleName(address), *own_address, modbus.ReadInputRegisters(address, 0, 1)
 
     def find_sentinel(self) -> Procedure[None]:
         """Choose the first of the plain reads that the module answers right; without one it stays the first."""

@@ -168,7 +168,7 @@ def _long_frames(module: Subject) -> Iterable[bytes]:
 # --- what comes after it ----------------------------------------------------------------------------------------------
 
 Garbage = Callable[[Subject], Iterable[tuple[str, bytes]]]
-"""Returns what is no frame for the module, each with its name."""
+"""Returns bytes that the module should ignore, each with its name."""
 
 
 def _recovers(garbage: Garbage) -> Steps:
