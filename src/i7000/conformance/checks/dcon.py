@@ -96,7 +96,7 @@ def _no_more_channels(command: OfChannel, module: Subject) -> Procedure[None]:
         return
     bodies = [body_of(module, command(module.address, channel)) for channel in (0, 1)]
     at = next(at for at, pair in enumerate(zip(*bodies, strict=True)) if len(set(pair)) > 1)
-    yield from not_carried_out(module, module.seal(bodies[0][:at] + b"G" + bodies[0][at + 1 :]) + b"\r")
+    yield from not_carried_out(module, module.seal(bodies[0][:at] + b"G" + bodies[0][at + 1 :]))
 
 
 # --- synchronized sampling --------------------------------------------------------------------------------------------
@@ -180,12 +180,12 @@ _BARE = ("$%02X", "~%02X", "@%02X")
 
 def _no_commands(forms: tuple[str, ...], module: Subject) -> Procedure[None]:
     bodies = [(form % module.address).encode() for form in forms]
-    yield from not_carried_out(module, *(module.seal(body) + b"\r" for body in bodies))
+    yield from not_carried_out(module, *(module.seal(body) for body in bodies))
 
 
 def _way_of_refusal(module: Subject) -> Procedure[None]:
     body = (_BARE[0] % module.address).encode()
-    heard = yield from module.expect_one_of(module.seal(body) + b"\r", (None, module.refused))
+    heard = yield from module.expect_one_of(module.seal(body), (None, module.refused))
     raise Note(f"an unknown command is answered with {'silence' if heard is None else _text(heard)}", erratum="E27")
 
 

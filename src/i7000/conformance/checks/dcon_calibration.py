@@ -102,7 +102,7 @@ def _refused_beyond(command: Callable[[int, int], dcon.Command[Any]], module: Su
     for channel in beyond(module.channels, 1):
         yield from module.expect(command(module.address, channel))
     body = body_of(module, command(module.address, 0))
-    yield from not_carried_out(module, module.seal(body[:-1] + b"G") + b"\r")
+    yield from not_carried_out(module, module.seal(body[:-1] + b"G"))
 
 
 def _internally(module: Subject) -> Procedure[None]:
@@ -124,9 +124,7 @@ def _enable_and_disable(module: Subject) -> Procedure[None]:
 def _not_enabled(module: Subject) -> Procedure[None]:
     yield from module.expect(_enable(module, enabled=False))
     body = body_of(module, _enable(module, enabled=True))
-    tries = not_carried_out(
-        module, module.seal(body[:-1] + b"2") + b"\r", with_tail(module, _enable(module, enabled=True))
-    )
+    tries = not_carried_out(module, module.seal(body[:-1] + b"2"), with_tail(module, _enable(module, enabled=True)))
     yield from _disabled_at_the_end(module, _still_refused(module, tries))
 
 

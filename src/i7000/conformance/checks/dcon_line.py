@@ -53,7 +53,7 @@ def _no_configuration(module: Subject) -> Procedure[None]:
     old, other = configuration(module), other_configuration(module)
     body = body_of(module, other)
     wires = (
-        module.seal(body[:-1]) + b"\r",
+        module.seal(body[:-1]),
         with_tail(module, other),
     )
     yield from unchanged(module, not_carried_out(module, *wires), old, dcon.ReadConfiguration(module.address))
@@ -82,7 +82,7 @@ def _no_protocol(module: Subject) -> Procedure[None]:
     old = dcon.SetProtocol(module.address, module.twin.state.eeprom.protocol)
     tries = not_carried_out(
         module,
-        module.seal(body_of(module, old)[:-1] + b"2") + b"\r",
+        module.seal(body_of(module, old)[:-1] + b"2"),
         with_tail(module, other_protocol(module)),
     )
     yield from unchanged(module, tries, old, dcon.ReadProtocol(module.address))
@@ -108,7 +108,7 @@ def _set_soft_init_timeout(module: Subject) -> Procedure[None]:
 
 def _no_soft_init_timeout(module: Subject) -> Procedure[None]:
     one = dcon.SetSoftInitTimeout(module.address, 61)
-    wires = (module.wire(one), module.seal(body_of(module, one)[:-1]) + b"\r", with_tail(module, one))
+    wires = (module.wire(one), module.seal(body_of(module, one)[:-1]), with_tail(module, one))
     shut = dcon.SetSoftInitTimeout(module.address, 0)
     try:
         yield from not_carried_out(module, *wires)
@@ -145,8 +145,8 @@ def _no_watchdog(module: Subject) -> Procedure[None]:
     other = evolve(old, timeout=0xFE if old.timeout != 0xFE else 0xEF)
     body = body_of(module, other)
     wires = (
-        module.seal(body[:4] + b"2" + body[5:]) + b"\r",
-        module.seal(body[:-1]) + b"\r",
+        module.seal(body[:4] + b"2" + body[5:]),
+        module.seal(body[:-1]),
         with_tail(module, other),
     )
     yield from unchanged(module, not_carried_out(module, *wires), old, dcon.ReadHostWatchdogTimeout(module.address))

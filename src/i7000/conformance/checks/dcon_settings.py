@@ -65,7 +65,7 @@ def _mask_tries(module: Subject, other: dcon.SetChannelMask) -> Procedure[None]:
     if module.channels.stop < 4 * module.profile.mask_digits:
         yield from module.expect(evolve(other, mask=other.mask | 1 << module.channels.stop))
     body = body_of(module, other)
-    yield from not_carried_out(module, with_tail(module, other), module.seal(body[:-1]) + b"\r")
+    yield from not_carried_out(module, with_tail(module, other), module.seal(body[:-1]))
 
 
 # --- type codes -------------------------------------------------------------------------------------------------------
@@ -127,8 +127,8 @@ def _no_other_offset(module: Subject) -> Procedure[None]:
     other = dcon.SetCjcOffset(module.address, 0x12A if old.offset != 0x12A else 0x12B)
     body = body_of(module, other)
     wires = (
-        *(module.seal(b"%s%c%04X" % (body[:-5], sign, _LARGEST_OFFSET + 1)) + b"\r" for sign in b"+-"),
-        module.seal(body[:-5] + body[-4:]) + b"\r",
+        *(module.seal(b"%s%c%04X" % (body[:-5], sign, _LARGEST_OFFSET + 1)) for sign in b"+-"),
+        module.seal(body[:-5] + body[-4:]),
         with_tail(module, other),
     )
     yield from unchanged(module, not_carried_out(module, *wires), old, dcon.ReadCjcOffset(module.address))
@@ -170,7 +170,7 @@ def _no_other_update(module: Subject) -> Procedure[None]:
     old = dcon.SetCjcUpdate(module.address, now)
     other = CjcUpdate.STOPPED if now is CjcUpdate.STARTED else CjcUpdate.STARTED
     wires = (
-        module.seal(body_of(module, old)[:-1] + b"3") + b"\r",
+        module.seal(body_of(module, old)[:-1] + b"3"),
         with_tail(module, dcon.SetCjcUpdate(module.address, other)),
     )
     try:
@@ -209,7 +209,7 @@ def _no_other_flag(section: str, module: Subject) -> Procedure[None]:
     command, read, name = _FLAGS[section]
     now = getattr(_memory(module), name)
     old, other = (command(module, enabled=enabled) for enabled in (now, not now))
-    wires = (module.seal(body_of(module, old)[:-1] + b"2") + b"\r", with_tail(module, other))
+    wires = (module.seal(body_of(module, old)[:-1] + b"2"), with_tail(module, other))
     yield from unchanged(module, not_carried_out(module, *wires), old, read(module.address))
 
 
@@ -231,7 +231,7 @@ def _set_name(module: Subject) -> Procedure[None]:
 def _no_longer_name(module: Subject) -> Procedure[None]:
     old = dcon.SetModuleName(module.address, _memory(module).name)
     body = body_of(module, other_name(module))
-    tries = not_carried_out(module, module.seal(body + b"9") + b"\r")
+    tries = not_carried_out(module, module.seal(body + b"9"))
     yield from unchanged(module, tries, old, dcon.ReadModuleName(module.address))
 
 
@@ -265,7 +265,7 @@ def _set_mode(module: Subject) -> Procedure[None]:
 def _no_other_mode(module: Subject) -> Procedure[None]:
     now = _memory(module).single_ended
     old, other = (_mode(module, single_ended=single_ended) for single_ended in (now, not now))
-    wires = (module.seal(body_of(module, old)[:-1] + b"2") + b"\r", with_tail(module, other))
+    wires = (module.seal(body_of(module, old)[:-1] + b"2"), with_tail(module, other))
     yield from unchanged(module, not_carried_out(module, *wires), old, dcon.ReadConnectingMode(module.address))
 
 
