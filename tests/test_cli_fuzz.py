@@ -121,7 +121,7 @@ def test_a_setting_that_the_sentinel_does_not_show_is_reported(
     run: Run, fragile: Any, monkeypatch: pytest.MonkeyPatch, *, kept: bool, code: int
 ) -> None:
     port = fragile(lambda _: False)
-    sent = []
+    sent: list[bool] = []
 
     def renamed(*_: Any) -> bytes:
         if not sent:

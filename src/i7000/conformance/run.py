@@ -5,11 +5,8 @@ given only where bytes of the module were received in that very check, and where
 tested too.
 """
 
-import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
-from fnmatch import fnmatchcase
+from collections.abc import Iterable, Iterator, Sequence
 from random import Random
 from typing import Any
 
@@ -20,12 +17,13 @@ from i7000.conformance.claims import Claims
 from i7000.conformance.guard import Guard, GuardError
 from i7000.conformance.hazard import Hazard
 from i7000.conformance.oracle import Twin
+from i7000.conformance.selection import asked_for, by_positive, selected
 from i7000.conformance.settle import settle
 from i7000.conformance.statement import Level, Statement
 from i7000.conformance.subject import Sentinel, Subject
 from i7000.conformance.verdict import Difference, Lost, Reason, Skipped, SkipReason, Verdict
 from i7000.device import Eeprom, State
-from i7000.errors import I7000Error, InvalidValueError
+from i7000.errors import I7000Error
 from i7000.frozen import frozen
 from i7000.host.events import Answered, Declined
 from i7000.host.procedures import BytesHeard, Procedure, Result, SendBytes, Snapshot, Tell, Tune
@@ -100,68 +98,6 @@ class CheckResult:
 # --- the plan ---------------------------------------------------------------------------------------------------------
 
 
-def selected(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> frozenset[str]:
-    """Return the ids that texts select: ids, beginnings of them, patterns with ``*``, and sections of the manual.
-
-    Special: no text selects everything. What a selected check needs, and its negative half, are selected too.
-    Errors: `InvalidValueError` for a text that selects nothing; it names the nearest id.
-
-    >>> from i7000 import spec
-    >>> sorted(selected(spec.statements(), ["link"]))[0]
-    'link/alive'
-    """
-    return frozenset(_completed(set(asked_for(known, selection)), known))
-
-
-def asked_for(known: Mapping[str, Statement], selection: Iterable[str] = ()) -> frozenset[str]:
-    """Return the ids that texts name, without what those need.
-
-    Errors: as for `selected`.
-    """
-    texts = tuple(selection)
-    found = set() if texts else set(known)
-    for text in texts:
-        matching = {it.id for it in known.values() if _matches(it, text)}
-        if not matching:
-            near = ", ".join(get_close_matches(text, known, n=3, cutoff=0.4))
-            allowed = "the id of a check, a group, a pattern such as dcon/2.1*, or a section of the manual"
-            allowed = f"{allowed}; near it: {near}" if near else allowed
-            raise InvalidValueError("select", text, allowed, "", f"there is no check {text!r}")
-        found |= matching
-    return frozenset(found)
-
-
-def _matches(statement: Statement, text: str) -> bool:
-    return (
-        statement.id == text
-        or statement.id.startswith(text.rstrip("/") + "/")
-        or statement.id.startswith(text + "-n")
-        or fnmatchcase(statement.id, text)
-        or (re.fullmatch(r"[1-3A](\.\d+)*", text) is not None and text in statement.sections)
-    )
-
-
-def _completed(found: set[str], known: Mapping[str, Statement]) -> set[str]:
-    """Add what is needed, and the negative halves."""
-    left = list(found)
-    halves = _by_positive(known.values())
-    while left:
-        one = left.pop()
-        for other in (*known[one].needs, *(it.id for it in halves.get(one, ()))):
-            if other not in found:
-                found.add(other)
-                left.append(other)
-    return found
-
-
-def _by_positive(statements: Iterable[Statement]) -> dict[str | None, list[Statement]]:
-    """Return the negative halves of checks, by the ids of those."""
-    found: dict[str | None, list[Statement]] = {}
-    for one in statements:
-        found.setdefault(one.positive, []).append(one)
-    return found
-
-
 def plan(
     statements: Iterable[Statement],
     profile: Profile,
@@ -205,7 +141,7 @@ def _skip(statement: Statement, profile: Profile, protocol: Protocol, allowed: f
 def _halves(planned: Sequence[Planned]) -> Iterator[list[Planned]]:
     """Yield each check with its negative halves after it."""
     by_id = {it.statement.id: it for it in planned}
-    halves = _by_positive(it.statement for it in planned)
+    halves = by_positive(it.statement for it in planned)
     for one in planned:
         if one.statement.positive not in by_id:
             yield [one, *(by_id[it.id] for it in halves.get(one.statement.id, ()))]

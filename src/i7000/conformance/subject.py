@@ -119,7 +119,8 @@ class Subject:
         """The read that shows that the module is there."""
         known = self.known
         if known is None or known.protocol is not self.protocol or not known.place:
-            return (dcon if self.protocol is Protocol.DCON else modbus).ReadModuleName(self.address)
+            of_dcon = self.protocol is Protocol.DCON
+            return dcon.ReadModuleName(self.address) if of_dcon else modbus.ReadModuleName(self.address)
         return self._plain_reads()[known.place]
 
     def _plain_reads(self) -> tuple[Query[Any], ...]:

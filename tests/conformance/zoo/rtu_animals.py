@@ -115,7 +115,7 @@ def _exceptions(change: Callable[[bytes], bytes]) -> Kind:
 
 HERD.add("exceptions-without-bit-7", "An exception has the function code of the request.",
          _exceptions(lambda said: said[:1] + bytes((said[1] & 0x7F,)) + said[2:]), PLAIN,
-         "rtu/function/unknown rtu/46/unknown", others=40)  # fmt: skip
+         "rtu/function/unknown", others=40)  # fmt: skip
 HERD.add("wrong-exception-for-counts", "A count of 0 or of too many is refused with exception 02.",
          answering(lambda heard, said: said[:2] + b"\2" if said[1:] == b"\x84\3" and len(heard) == 6 else said), PLAIN,
          "rtu/04/counts-n1")  # fmt: skip
@@ -124,7 +124,7 @@ HERD.add("wrong-exception-for-addresses", "A start that is not there is refused 
          "rtu/04/counts-n2", others=2)  # fmt: skip
 HERD.add("wrong-exception-of-46h", "An unknown sub-function of 46h is refused with exception 03.",
          answering(lambda heard, said: said[:2] + b"\3" if said[1:] == b"\xc6\2" else said), PLAIN,
-         "rtu/46/unknown")  # fmt: skip
+         "rtu/46/unknown", allow=[WRITE])  # fmt: skip
 
 
 @HERD.animal("unknown-functions-ignored", PLAIN, "rtu/function/unknown")
@@ -220,7 +220,7 @@ HERD.add("channels-off-by-one", "Sub-function 07 reads the type of the next chan
 HERD.add("name-too-short", "Sub-function 00 has three bytes of the name.",
          saying(rb"^(\x01F\x00...).", rb"\1"), PLAIN, "link/alive")  # fmt: skip
 HERD.add("unknown-sub-functions-acknowledged", "Unknown sub-functions are acknowledged.",
-         acknowledging(rb"\x01F[\x01\x0a\x1f\x7f]", 3), PLAIN, "rtu/46/unknown")  # fmt: skip
+         acknowledging(rb"\x01F[\x01\x0a\x1f\x7f]", 3), PLAIN, "rtu/46/unknown", allow=[WRITE])  # fmt: skip
 
 
 # --- registers --------------------------------------------------------------------------------------------------------
@@ -278,7 +278,7 @@ class ResetStatusStays(Animal):
 
 HERD.add(
     "padding-bits-set",
-    "The bits after the last coil are 1. That is legal: nothing finds it.",
+    "The bits after the last coil are 1. That is legal, but strange.",
     answering(
         lambda heard, said: (
             said[:-1] + bytes((said[-1] | 0xFF << heard[5] % 8 & 0xFF,))
