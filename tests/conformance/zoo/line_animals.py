@@ -100,7 +100,7 @@ class WholeFrames(Animal):
 _KINDS: dict[str, tuple[type[Animal], str, int]] = {
     "no-cable": (Silent, "", 0),
     "babbler": (Babbler, "link/alive", 10),
-    "murmurer": (Murmurer, "link/no-stray-bytes", 90),
+    "murmurer": (Murmurer, "", 90),
     "echo": (Echo, "link/no-echo", 2),
     "slow": (Slow, "link/prompt", 90),
     "every-seventh-lost": (Seventh, "timing/repeated", 60),

@@ -218,7 +218,7 @@ HERD.add("channels-off-by-one", "Sub-function 07 reads the type of the next chan
          settings(Model.M_7019R, RTU, type_codes=(*PLAIN.type_codes[:7], PLAIN.type_codes[0].__class__(0x0F))),
          "rtu/46/07/channels")  # fmt: skip
 HERD.add("name-too-short", "Sub-function 00 has three bytes of the name.",
-         saying(rb"^(\x01F\x00...).", rb"\1"), PLAIN, "link/alive")  # fmt: skip
+         saying(rb"^(\x01F\x00...).", rb"\1"), PLAIN, "rtu/46/00/reply")  # fmt: skip
 HERD.add("unknown-sub-functions-acknowledged", "Unknown sub-functions are acknowledged.",
          acknowledging(rb"\x01F[\x01\x0a\x1f\x7f]", 3), PLAIN, "rtu/46/unknown", allow=[WRITE])  # fmt: skip
 
@@ -287,7 +287,7 @@ HERD.add(
         )
     ),
     PLAIN,
-    "",
+    "rtu/01/padding",
     others=0,
 )
 
