@@ -17,7 +17,6 @@ from i7000.cli.asked import LEFT_CHANGED, Asked
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as run_at_port
 from i7000.cli.text import Printer
-from i7000.cli.words import UsageError
 from i7000.conformance import GuardError
 from i7000.conformance.fuzzing import fewest, near_miss, reads, sentinel
 from i7000.errors import written
@@ -55,10 +54,7 @@ def run(plan: Plan) -> int:
     Errors: `UsageError`, `LineError`.
     """
     printer = Printer()
-    try:
-        return run_at_port(plan.asked, lambda open_line: _fuzz(open_line, plan, printer), guard=GuardedPort)
-    except GuardError as error:
-        raise UsageError(f"the module cannot be identified within what is allowed: {error}") from None
+    return run_at_port(plan.asked, lambda open_line: _fuzz(open_line, plan, printer), guard=GuardedPort)
 
 
 @define

@@ -208,7 +208,8 @@ HERD.add("blanks-of-six", "The blanks of a disabled channel are six in place of 
 HERD.add("mask-too-long", "The mask of eight channels has four digits.", saying(b"^!01", b"!0100", to=rb"\$016"),
          PLAIN, "dcon/2.14/reply")  # fmt: skip
 HERD.add("name-padded", "The name is padded with blanks to eight characters.",
-         answering(lambda heard, said: said.ljust(11) if heard == b"$01M" else said), PLAIN, "dcon/2.24/reply")  # fmt: skip
+         answering(lambda heard, said: said.ljust(11) if heard == b"$01M" else said), PLAIN,
+         "dcon/2.24/reply")  # fmt: skip
 HERD.add("firmware-without-letter", "The firmware version has no letter before it.",
          saying(b"^!01[A-Z]", b"!01 ", to=rb"\$01F"), PLAIN, "dcon/2.23/reply")  # fmt: skip
 HERD.add("address-of-another", "The configuration has the address of another module.",
@@ -366,7 +367,7 @@ HERD.add("offset-without-sign", "The sign of the CJC offset is lost when it is s
          PLAIN, "dcon/2.18/set", allow=[WRITE])  # fmt: skip
 HERD.add("offset-sign-reversed", "The CJC offset is read with the other sign.",
          answering(lambda heard, said: said.translate(bytes.maketrans(b"+-", b"-+")) if heard == b"$019" else said),
-         settings(M_7019R, cjc_offset=5), "dcon/2.18/set", allow=[WRITE])  # fmt: skip
+         settings(M_7019R, cjc_offset=5), "dcon/2.18/set", others=12, allow=[WRITE])  # fmt: skip
 
 
 @HERD.animal("type-of-all", PLAIN, "dcon/2.15/set", allow=[WRITE])

@@ -295,7 +295,7 @@ HERD.add(
 # --- settings ---------------------------------------------------------------------------------------------------------
 
 
-@HERD.animal("writes-forgotten", PLAIN, "map/write/type_code", allow=[WRITE], others=3)
+@HERD.animal("writes-forgotten", PLAIN, "map/write/type_code", allow=[WRITE], others=12)
 class WritesForgotten(Animal):
     """A type that is written is acknowledged and not set."""
 
@@ -304,7 +304,7 @@ class WritesForgotten(Animal):
         return (state if frame[:4] < b"\1\6\1\x08" and frame[:3] == b"\1\6\1" else after), answer
 
 
-@HERD.animal("writes-reach-the-next", PLAIN, "map/write/cjc_offset", allow=[WRITE], others=3)
+@HERD.animal("writes-reach-the-next", PLAIN, "map/write/cjc_offset", allow=[WRITE], others=12)
 class WritesReachTheNext(Animal):
     """The offset of a channel that is written is that of the next channel."""
 
