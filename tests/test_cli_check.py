@@ -155,7 +155,7 @@ def test_what_is_not_allowed_is_counted_with_what_to_allow(run: Run, monkeypatch
 
 def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Select only what is named, not what it needs."""
-    monkeypatch.setattr("i7000.conformance.run._completed", lambda found, _: found)
+    monkeypatch.setattr("i7000.conformance.selection._completed", lambda found, _: found)
 
 
 def test_nothing_that_was_received_decides_nothing(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -561,14 +561,6 @@ def test_modules_with_other_settings_pass(run: Run, target: str) -> None:
     told = run("check", target, "link", "frame", *given)
 
     assert told.code == 0, told.out
-
-
-def test_a_read_that_the_guard_refuses_is_told(run: Run) -> None:
-    told = run("check", "sim:I-7018,address=255,checksum=on", "link", "--address", "255")
-
-    assert told.code == 2
-    assert "$FFP00\\r after " in told.err
-    assert told.err.endswith("was not sent: it can make the module unreachable (--allow comm)\n")
 
 
 def test_a_module_in_init_mode_passes_and_is_named_so(run: Run) -> None:

@@ -6,7 +6,7 @@ import sys
 import time
 from typing import Any
 
-BEHAVIOUR, ID = (*sys.argv[1:], "")[:2]
+BEHAVIOUR, ID = (*sys.argv[1:], "", "")[:2]
 ABOUT = {"name": "hostile", "version": "1", "language": "Python"}
 STARTED = {"protocol": 1, "implementation": ABOUT, "operations": ["frames.checksum", "frames.crc"]}
 FOREVER = 3600

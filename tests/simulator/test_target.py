@@ -109,20 +109,22 @@ def test_a_port_that_fails_is_lost(*, reads: bool, said: str) -> None:
 
 def test_a_port_that_takes_nothing_does_not_fill_the_memory() -> None:
     async def flood(target: Target, _: "asyncio.Queue[Any]") -> tuple[int, bool]:
-        taken = 0
+        taken = int(target.write(b"#01\r"))
+        assert await asyncio.to_thread(begun.wait, ENOUGH)  # from now on the thread takes nothing more
         while target.write(b"#01\r"):
             taken += 1
         return taken, target.tune(Uart())
 
     class Slow(Broken):
         def write(self, b: Any, /) -> int:  # noqa: ARG002
+            begun.set()
             going_on.wait(ENOUGH)
             return 4
 
         def close(self) -> None:
             pass
 
-    going_on = threading.Event()
+    begun, going_on = threading.Event(), threading.Event()
 
     async def flood_and_go_on(target: Target, came: "asyncio.Queue[Any]") -> tuple[int, bool]:
         found = await flood(target, came)
