@@ -87,7 +87,8 @@ def _value(kind: Any, value: Any) -> Any:  # noqa: ANN401 - a type, and what JSO
     if kind is bytes:
         return bytes.fromhex(value)
     if isinstance(value, list):
-        return tuple(value)
+        items: list[Any] = value
+        return tuple(items)
     if kind in (LineSettings, ReportSettings):
         return kind.from_byte(value)
     return kind(value) if isinstance(kind, type) and issubclass(kind, Enum | float) else value
