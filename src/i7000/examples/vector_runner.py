@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 from functools import partial
-from typing import IO, Any, get_args
+from typing import IO, Any, cast, get_args
 
 from attrs import fields
 
@@ -87,8 +87,7 @@ def _value(kind: Any, value: Any) -> Any:  # noqa: ANN401 - a type, and what JSO
     if kind is bytes:
         return bytes.fromhex(value)
     if isinstance(value, list):
-        items: list[Any] = value
-        return tuple(items)
+        return tuple(cast("list[Any]", value))
     if kind in (LineSettings, ReportSettings):
         return kind.from_byte(value)
     return kind(value) if isinstance(kind, type) and issubclass(kind, Enum | float) else value
