@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 from functools import partial
-from typing import IO, Any, cast, get_args
+from typing import IO, Any, get_args
 
 from attrs import fields
 
@@ -86,8 +86,8 @@ def message_of(record: Record, kinds: Kinds) -> Any:  # noqa: ANN401 - of any cl
 def _value(kind: Any, value: Any) -> Any:  # noqa: ANN401 - a type, and what JSON has for it
     if kind is bytes:
         return bytes.fromhex(value)
-    if isinstance(value, list):
-        return tuple(cast("list[Any]", value))
+    if value.__class__ is list:
+        return tuple(value)
     if kind in (LineSettings, ReportSettings):
         return kind.from_byte(value)
     return kind(value) if isinstance(kind, type) and issubclass(kind, Enum | float) else value
