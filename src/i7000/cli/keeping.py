@@ -11,7 +11,7 @@ from i7000.cli.reached import OpenLine, Reached
 from i7000.cli.snapshot_file import write_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
-from i7000.conformance.hazard import Hazard
+from i7000.conformance.hazard import STORED, Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.settle import Settled, settle
 from i7000.errors import I7000Error
@@ -19,10 +19,7 @@ from i7000.host.procedures import Snapshot
 from i7000.link.bench import snapshot_name
 from i7000.settings import LineSettings
 
-__all__ = ["STORED", "Keeper"]
-
-STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
-"""What changes settings."""
+__all__ = ["Keeper"]
 
 
 class Keeper:

@@ -1,11 +1,9 @@
 """A provoked driver at the terminal: how a scenario runs, and when it is over."""
 
 import asyncio
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from functools import partial
-from hashlib import sha256
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from time import monotonic
 
@@ -25,7 +23,7 @@ from i7000.device import Eeprom
 from i7000.simulator.provoking import Player
 from i7000.simulator.simulator import Simulated, Simulator
 from i7000.simulator.sources import default_sources
-from i7000.spec import files
+from i7000.spec import digest
 
 __all__ = ["Provoking", "run"]
 
@@ -74,7 +72,7 @@ def run(provoking: Provoking, printer: Printer) -> int:
     results: list[Result] = []
     with Report(provoking.report) as report:
         report.start(
-            spec=_digest(),
+            spec=digest(),
             seed=provoking.seed,
             modules=list(provoking.models or DEFAULT_MODELS),
             command=list(provoking.command),
@@ -90,22 +88,6 @@ def run(provoking: Provoking, printer: Printer) -> int:
         report.end(results, code)
     printer.lines(summary(results))
     return code
-
-
-def _digest() -> str:
-    """Return the SHA-256 of the files of ``spec``, with their names."""
-    digest = sha256()
-    for name, file in sorted(_files(files(), "")):
-        digest.update(f"{name}\0".encode() + file.read_bytes())
-    return digest.hexdigest()
-
-
-def _files(folder: Traversable, name: str) -> Iterator[tuple[str, Traversable]]:
-    for file in folder.iterdir():
-        if file.is_dir():
-            yield from _files(file, f"{name}{file.name}/")
-        elif file.name.endswith(".json"):
-            yield f"{name}{file.name}", file
 
 
 def _code(results: Sequence[Result]) -> int:

@@ -13,12 +13,12 @@ from typing import IO, Annotated, Any
 from attrs import evolve, field, frozen
 from cyclopts import Parameter
 
-from i7000 import __version__
+from i7000 import __version__, spec
 from i7000.cli.codec_run import Codec
 from i7000.cli.options import Json, Texts
 from i7000.cli.port import broken_off_by_signals
 from i7000.cli.text import Line, Printer
-from i7000.cli.vector_files import all_vectors, spec_digest
+from i7000.cli.vector_files import all_vectors
 from i7000.cli.vector_records import SCHEMA_VERSION, Record, Result, Tally, junit, result_record, start_record
 from i7000.cli.vector_schema import protocol_schema, report_schema
 from i7000.cli.words import UsageError, near
@@ -200,7 +200,7 @@ class _Run:
             "schema_version": SCHEMA_VERSION,
             "program": "i7000 vectors",
             "version": __version__,
-            "spec": spec_digest(),
+            "spec": spec.digest(),
             "protocol": PROTOCOL,
             "time": datetime.now(UTC).isoformat(timespec="milliseconds"),
         } | start_record(implementation, self.command)

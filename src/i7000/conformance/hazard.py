@@ -20,7 +20,7 @@ from i7000.modbus.registers import Area, Register
 from i7000.models import Model
 from i7000.profile import Profile
 
-__all__ = ["DEFAULT_ALLOWED", "Hazard", "allowing", "worst_of"]
+__all__ = ["DEFAULT_ALLOWED", "STORED", "Hazard", "allowing", "worst_of"]
 
 
 class Hazard(Enum):
@@ -57,6 +57,8 @@ _RANKS = {hazard: rank for rank, hazard in enumerate(Hazard)}
 
 DEFAULT_ALLOWED = frozenset({Hazard.OBSERVE, Hazard.MEMORY})
 """The hazards that need no permission."""
+STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
+"""The hazards of what a module may keep in its EEPROM."""
 
 
 def allowing(hazards: Iterable[Hazard] = ()) -> frozenset[Hazard]:

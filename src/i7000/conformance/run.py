@@ -15,7 +15,7 @@ from attrs import evolve
 from i7000.conformance.checks import STEPS
 from i7000.conformance.claims import Claims
 from i7000.conformance.guard import Guard, GuardError
-from i7000.conformance.hazard import Hazard
+from i7000.conformance.hazard import STORED, Hazard
 from i7000.conformance.oracle import Twin
 from i7000.conformance.selection import asked_for, by_positive, selected
 from i7000.conformance.settle import settle
@@ -271,7 +271,7 @@ class Run:
         subject = self._subject(Random(f"{self.options.seed} {statement.id}"))  # noqa: S311 - repeatable
         subject.answering = answering
         budget = subject.writes_left
-        self.may_have_changed |= bool(statement.hazards & _STORED)
+        self.may_have_changed |= bool(statement.hazards & STORED)
         started = self.now
         heard: list[object] = []
         verdict = Verdict.PASS
@@ -323,7 +323,7 @@ class Run:
 
     def _back(self, statement: Statement, subject: Subject, verdict: Verdict) -> Procedure[None]:
         """Bring the host, and a module that a check left elsewhere, back to where the next check expects them."""
-        failed = verdict in (Verdict.ERROR, Verdict.FAIL) and bool(statement.hazards & _STORED)
+        failed = verdict in (Verdict.ERROR, Verdict.FAIL) and bool(statement.hazards & STORED)
         elsewhere = _whereabouts(subject.twin.state) != _whereabouts(self.twin.state)
         if self.before is not None and (failed or elsewhere):
             try:
@@ -357,7 +357,6 @@ def _internal(error: Exception) -> str:
     return f"internal error: {type(error).__name__}: {error}{where}"
 
 
-_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _READS = frozenset({Hazard.OBSERVE, Hazard.MEMORY})
 _REPEATED = frozenset({Verdict.FAIL, Verdict.INCONCLUSIVE, Verdict.WARN})
 _GOOD = frozenset({Verdict.PASS, Verdict.PASS_GOOD_ONLY, Verdict.INFO, Verdict.WARN})

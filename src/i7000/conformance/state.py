@@ -23,9 +23,11 @@ def stated(
     Shape: `statements` are those of ``spec/checks``: the open ones say how the module reads the manual.
     """
     eeprom = eeprom_of(snapshot)
-    twin = Twin.of(eeprom, 0.0)
-    twin = Twin(twin.state.keep(checksum=checksum, line_settings=line))
-    module = Subject(twin, line)
+    profile = Twin.of(eeprom, 0.0).state.profile
+    wanted = [it for it in statements if it.level is Level.OPEN or it.id == "link/alive"]
+    planned = plan(wanted, profile, snapshot.protocol, DEFAULT_ALLOWED)
+    run = Run(planned, eeprom, Options(allowed=DEFAULT_ALLOWED), line=line, checksum=checksum)
+    module = Subject(run.twin, line)
     found = []
     for name, query in asked(module).items():
         try:
@@ -34,7 +36,7 @@ def stated(
             continue
         if there:
             found.append(name)
-    readings = yield from _readings(snapshot, statements, line, checksum=checksum)
+    yield from run.procedure()
     of_dcon = snapshot.protocol is Protocol.DCON
     return Claims(
         snapshot.model.value,
@@ -42,22 +44,8 @@ def stated(
         snapshot.name,
         snapshot.protocol,
         commands=tuple(found) if of_dcon else (),
-        functions=tuple(name for name in found if not of_dcon and name[:2].isalnum() and name[2:3] == "/"),
+        functions=tuple(name for name in found if not of_dcon and name[2:3] == "/"),
         registers=tuple(name for name in found if not of_dcon and name[2:3] != "/"),
         types=tuple(code.name for code in module.profile.type_codes),
-        readings=readings,
+        readings=tuple((it.id, it.text) for it in run.results if it.verdict is Verdict.INFO),
     )
-
-
-def _readings(
-    snapshot: Snapshot, statements: Iterable[Statement], line: LineSettings, *, checksum: bool
-) -> Procedure[tuple[tuple[str, str], ...]]:
-    """Return how the module reads the open points of the manual, by the checks of them."""
-    eeprom = eeprom_of(snapshot)
-    known = list(statements)
-    state = Twin.of(eeprom, 0.0).state
-    wanted = [it for it in known if it.level is Level.OPEN or it.id == "link/alive"]
-    planned = plan(wanted, state.profile, snapshot.protocol, DEFAULT_ALLOWED)
-    one = Run(planned, eeprom, Options(allowed=DEFAULT_ALLOWED), line=line, checksum=checksum)
-    yield from one.procedure()
-    return tuple((it.id, it.text) for it in one.results if it.verdict is Verdict.INFO)

@@ -13,7 +13,7 @@ from attrs import define, evolve, field
 from i7000 import dcon, modbus
 from i7000.conformance.allowed import LINE_END, SILENCE
 from i7000.conformance.guard import Guard, GuardError, hazards_of
-from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
+from i7000.conformance.hazard import DEFAULT_ALLOWED, STORED, Hazard
 from i7000.conformance.oracle import Answer, Twin, difference, is_exact, rows_of
 from i7000.conformance.verdict import Difference, Lost, Skipped, SkipReason
 from i7000.frozen import frozen
@@ -34,7 +34,6 @@ _TURNAROUND = 0.5
 """The longest time in seconds that an answer may take to begin."""
 _REFUSAL = 0.15
 """How long a module that should be silent is listened to before the sentinel."""
-_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _MORE_TRIES = 2
 _PAUSE = 0.3
 """How often a module that answers no more is looked for, and the pause in seconds before that."""
@@ -211,7 +210,7 @@ class Subject:
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """
         self.guard, hazards = self.guard.judged(wire, self.line)
-        if hazards & _STORED:
+        if hazards & STORED:
             self._count(self.twin.hear(wire, self.now)[0])
 
     def _count(self, after: Twin) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from i7000 import spec
 from i7000.arguments import check_int, check_type
-from i7000.conformance.hazard import Hazard, allowing
+from i7000.conformance.hazard import STORED, Hazard, allowing
 from i7000.conformance.oracle import eeprom_of
 from i7000.conformance.run import CheckResult, Options, Planned, Run, plan
 from i7000.conformance.settle import Settled, settle
@@ -27,8 +27,6 @@ from i7000.profile import Profile
 from i7000.settings import LineSettings, Protocol
 
 __all__ = ["Bench", "BenchError", "snapshot_name"]
-
-_STORED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 
 
 class BenchError(I7000Error):
@@ -120,7 +118,7 @@ class Bench:
 
     def _keep(self, group: Sequence[Planned]) -> None:
         """Write the settings of before to the file, if checks are the first ones that may change any."""
-        if self._place is None or self.kept or not any(it.statement.hazards & _STORED and not it.skip for it in group):
+        if self._place is None or self.kept or not any(it.statement.hazards & STORED and not it.skip for it in group):
             return
         path = self._place / snapshot_name(self.before, self._address) if self._place.is_dir() else self._place
         with path.open("x", encoding="ascii") as file:

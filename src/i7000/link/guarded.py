@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from i7000.arguments import as_bytes
 from i7000.conformance import DEFAULT_ALLOWED, Guard, Hazard
+from i7000.conformance.hazard import STORED
 from i7000.errors import I7000Error, InvalidValueError, written
 from i7000.link.port import Port, clock_of, named
 from i7000.settings import BaudRate, CharacterFormat, LineSettings, is_int
@@ -16,7 +17,6 @@ __all__ = ["BudgetError", "GuardedPort"]
 
 _SILENCE = 0.25
 """The silence in seconds after which no firmware waits for the rest of a Modbus frame."""
-_COUNTED = frozenset({Hazard.WRITE, Hazard.COMM, Hazard.CALIBRATION})
 _LARGEST_BUDGET = 1_000_000
 _LINES: dict[tuple[int, str, float], LineSettings] = {
     (rate.bits_per_second, form.parity, form.stop_bits): LineSettings(rate, form)
@@ -98,7 +98,7 @@ class GuardedPort:
         now = self.__clock()
         guard = self.__guard if now - self.__quiet_from < _SILENCE else self.__guard.after_silence()
         after, hazards = guard.judged(wire, line)
-        counted = not _COUNTED.isdisjoint(hazards)
+        counted = not STORED.isdisjoint(hazards)
         if counted and self.__budget is not None and self.__writes >= self.__budget:
             raise BudgetError(wire, self.__budget)
         self.__guard = after

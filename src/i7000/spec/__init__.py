@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from i7000.conformance.statement import Statement
 
-__all__ = ["digest", "files", "statements"]
+__all__ = ["data_files", "digest", "files", "statements"]
 
 
 def files() -> Traversable:
@@ -44,16 +44,16 @@ def statements() -> "Mapping[str, Statement]":
 def digest() -> str:
     """Return the SHA-256 of all files: of their names, sizes and contents, in the order of the names."""
     found = sha256()
-    for name, file in _files(files()):
+    for name, file in data_files(files()):
         data = file.read_bytes()
         found.update(f"{name}\n{len(data)}\n".encode() + data)
     return found.hexdigest()
 
 
-def _files(folder: Traversable, above: str = "") -> Iterator[tuple[str, Traversable]]:
-    """Yield the files under a folder with their names, in the order of the names."""
+def data_files(folder: Traversable, above: str = "") -> Iterator[tuple[str, Traversable]]:
+    """Yield the JSON and text files under a folder with their names, in the order of the names."""
     for entry in sorted(folder.iterdir(), key=lambda it: it.name):
         if entry.is_dir() and not entry.name.startswith(("_", ".")):
-            yield from _files(entry, f"{above}{entry.name}/")
+            yield from data_files(entry, f"{above}{entry.name}/")
         elif entry.name.endswith((".json", ".md")):
             yield f"{above}{entry.name}", entry

@@ -150,7 +150,7 @@ class AnimalPort:
         return found
 
     def _live(self, end: float) -> None:
-        """Let the firmware hear what it hears until a time."""
+        """Give the firmware what is sent to it until a time."""
         while True:
             sent = self._sent[0] if self._sent else None
             begins = inf if sent is None else sent[0] - len(sent[1]) * self._character

@@ -6,7 +6,7 @@ from typing import Any
 from i7000 import dcon
 from i7000.conformance.checks import consistency_modbus
 from i7000.conformance.checks.readings import Asked, agree
-from i7000.conformance.checks.steps import Steps, one_digit, told
+from i7000.conformance.checks.steps import Steps, one_digit, text_of, told
 from i7000.conformance.checks.values import asked_at_once
 from i7000.conformance.oracle import readings_of
 from i7000.conformance.subject import Subject
@@ -29,7 +29,7 @@ def _twice(command: type[dcon.Command[Any]], module: Subject) -> Procedure[None]
     yield from told(module, dcon.ReadConfiguration(module.address))
     _, again = yield from told(module, command(module.address))
     if again != first:
-        raise module.wrong("another answer than before", module.wire(command(module.address)), again, _text(first))
+        raise module.wrong("another answer than before", module.wire(command(module.address)), again, text_of(first))
 
 
 def _one_by_one(module: Subject) -> Procedure[Asked]:
@@ -150,10 +150,6 @@ def _sampled(module: Subject) -> Procedure[None]:
         return (yield from asked_at_once(module, dcon.ReadSynchronizedData(module.address)))
 
     yield from agree(module, partial(asked_at_once, module, dcon.ReadAnalogInputs(module.address)), sampled)
-
-
-def _text(wire: bytes) -> str:
-    return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
 
 
 STEPS: dict[str, Steps] = {

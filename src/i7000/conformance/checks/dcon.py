@@ -12,7 +12,7 @@ from typing import Any
 
 from i7000 import dcon
 from i7000.conformance.checks import dcon_calibration, dcon_line, dcon_settings
-from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, one_digit, with_tail
+from i7000.conformance.checks.steps import Steps, beyond, body_of, not_carried_out, one_digit, text_of, with_tail
 from i7000.conformance.subject import Subject
 from i7000.conformance.verdict import Note, Skipped, SkipReason
 from i7000.errors import DecodeError
@@ -113,7 +113,7 @@ def _sampled(module: Subject) -> Procedure[dcon.SynchronizedData | None]:
         response = dcon.decode_response(heard, command, module.profile)
     except DecodeError as error:
         raise module.wrong(
-            str(error), wire, heard, f">{module.address:02X}S(Data), or {_text(module.refused)}"
+            str(error), wire, heard, f">{module.address:02X}S(Data), or {text_of(module.refused)}"
         ) from None
     return response if isinstance(response, dcon.SynchronizedData) else None
 
@@ -186,7 +186,7 @@ def _no_commands(forms: tuple[str, ...], module: Subject) -> Procedure[None]:
 def _way_of_refusal(module: Subject) -> Procedure[None]:
     body = (_BARE[0] % module.address).encode()
     heard = yield from module.expect_one_of(module.seal(body), (None, module.refused))
-    raise Note(f"an unknown command is answered with {'silence' if heard is None else _text(heard)}", erratum="E27")
+    raise Note(f"an unknown command is answered with {'silence' if heard is None else text_of(heard)}", erratum="E27")
 
 
 def _of_other_models(module: Subject) -> Procedure[None]:
@@ -199,14 +199,10 @@ def _of_other_models(module: Subject) -> Procedure[None]:
         wire = module.wire(command(module.address))
         heard = (yield from module.send(wire, seconds=0.15)).wire
         if heard not in (b"", module.refused):
-            had.append(_text(wire))
+            had.append(text_of(wire))
     yield from module.alive(b"")
     if had:
         raise Note(f"the module answers commands of other models: {', '.join(had)}")
-
-
-def _text(wire: bytes) -> str:
-    return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
 
 
 # --- all of them ------------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ __all__ = [
     "not_carried_out",
     "one_digit",
     "put_back",
+    "text_of",
     "told",
     "unchanged",
     "with_tail",
@@ -32,6 +33,11 @@ Steps = Callable[[Subject], Procedure[None]]
 
 _TAILS = (b"F3", b"E5")
 """Characters that no command ends with. They look like a checksum, so that the guard lets them follow a read."""
+
+
+def text_of(wire: bytes) -> str:
+    """Return a frame of DCON as people write it."""
+    return wire.removesuffix(b"\r").decode("ascii", "backslashreplace")
 
 
 def body_of(module: Subject, command: Query[Any]) -> bytes:
