@@ -220,6 +220,8 @@ HERD.add("ignores-what-follows", "What follows a command is ignored.",
          hearing(rb"^(\$01[2369BFMP]|~01[02C])(F3|E5)$", rb"\1"), PLAIN, "dcon/2.10/reply-n1", others=11)  # fmt: skip
 HERD.add("unknown-commands-acknowledged", "Unknown commands are acknowledged.",
          acknowledging(rb"[$~@]01Z"), PLAIN, "dcon/2/unknown-command", allow=[WRITE])  # fmt: skip
+HERD.add("letterless-commands-acknowledged", "Commands that end before their letter are acknowledged.",
+         acknowledging(rb"[$~@]01$"), PLAIN, "dcon/2/bare")  # fmt: skip
 HERD.add("channel-beyond-the-last", "A channel beyond the last is read as channel 0.",
          hearing(rb"^#01[89A-F]$", b"#010"), PLAIN, "dcon/2.4/reply-n2")  # fmt: skip
 HERD.add("type-beyond-the-last", "The type of a channel beyond the last is that of channel 0.",
