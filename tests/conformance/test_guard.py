@@ -359,6 +359,14 @@ def test_what_is_remembered_is_bounded(wires: list[bytes], line: LineSettings) -
     assert all(0 <= start < 256 for rest in guard.rests for start in rest.starts)
 
 
+@pytest.mark.parametrize("dropped", [b" ", b"\0", b"\x7f", b"\xa0"])
+def test_characters_that_a_firmware_drops_do_not_push_out_what_is_unfinished(dropped: bytes) -> None:
+    guard = Guard().sending(b"~01" + 300 * dropped, LineSettings())
+
+    with pytest.raises(GuardError, match="changes a setting"):
+        guard.sending(b"O7018\r", LineSettings())
+
+
 def test_arguments_are_checked() -> None:
     wrong: Any = {"write"}
     with pytest.raises(InvalidValueError, match="allowed"):

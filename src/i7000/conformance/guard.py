@@ -8,7 +8,8 @@ lenient: they carry out complete lines and requests only. All commands and reque
 line, at every address and with and without a checksum, but for two that look like others: ``$FFP00``, the protocol of
 module FF with its checksum, which looks like a new protocol; and the type of channel 5 of module A4 by function 46h,
 whose text is ``$F1S``. What is unfinished on the line can make others look dangerous. A guard keeps the last 255 bytes
-of each protocol, more than any frame needs to be completed.
+of each protocol, more than any frame needs to be completed; of longer text it keeps the last 255 characters that no
+firmware drops.
 
 >>> Guard().sending(b"$012\r", LineSettings()).allowed == DEFAULT_ALLOWED
 True
@@ -21,7 +22,7 @@ from typing import NamedTuple
 from attrs import field
 
 from i7000.arguments import as_bytes, check_type
-from i7000.conformance.guard_dcon import HEARD_AS, hazards_in_text
+from i7000.conformance.guard_dcon import DROPPED, HEARD_AS, hazards_in_text
 from i7000.conformance.guard_rtu import begins_nothing, hazards_at, hazards_of_modules, hazards_with_crc, is_frame
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard, worst_of
 from i7000.device.uart import Uart, levels_of, receiver
@@ -196,4 +197,7 @@ def _strict(rest: Rest, heard: bytes, place: int) -> tuple[frozenset[Hazard], in
 def _rest(text: bytes, frame: bytes, starts: tuple[int, ...]) -> Rest:
     cut = max(0, len(frame) - _KEPT)
     kept = tuple([start - cut for start in starts if start >= cut])
-    return Rest(text[text.rfind(b"\r") + 1 :][-_KEPT:], frame[cut:], kept)
+    text = text[text.rfind(b"\r") + 1 :]
+    if len(text) > _KEPT:
+        text = text.translate(None, DROPPED)[-_KEPT:]
+    return Rest(text, frame[cut:], kept)

@@ -19,12 +19,13 @@ from i7000.dcon.codec import AnyCommand
 from i7000.dcon.layout import pieces_of
 from i7000.frozen import frozen
 
-__all__ = ["HEARD_AS", "hazards_in_text"]
+__all__ = ["DROPPED", "HEARD_AS", "hazards_in_text"]
 
 _HARMLESS = frozenset({Hazard.OBSERVE})
 HEARD_AS = bytes(range(0x80)).upper() * 2
 """The translation of bytes to what a firmware hears that ignores case and bit 7."""
-_DROPPED = bytes((*range(0x0D), *range(0x0E, 0x21), 0x7F))
+DROPPED = bytes((*range(0x0D), *range(0x0E, 0x21), 0x7F))
+"""The bytes that a firmware drops that takes printable characters only, without the carriage return."""
 _START = re.compile(rb"(?=([%#$~@])([0-9A-F]{2}|\*\*)([^%#$~@]*))", re.DOTALL)
 _HEX_DIGITS = frozenset(b"0123456789ABCDEF")
 _DIGITS_OF_VALUES = frozenset(b"012")
@@ -87,7 +88,7 @@ def hazards_in_text(text: bytes) -> frozenset[Hazard]:
 
 def _hazards_of_line(line: bytes, *, finished: bool) -> frozenset[Hazard]:
     found = _HARMLESS
-    for heard in dict.fromkeys((line, line.translate(None, _DROPPED))):
+    for heard in dict.fromkeys((line, line.translate(None, DROPPED))):
         for start in _START.finditer(heard):
             lead, address, rest = start.groups()
             ended = finished and start.end(3) == len(heard)

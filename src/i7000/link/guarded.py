@@ -1,7 +1,8 @@
 r"""A port whose writes pass the guard of the conformance kit: nothing that is not allowed gets out.
 
 Laws: the port behind the guard is not reachable by a public name. Every byte that is sent was classified with the line
-settings that the port had.
+settings that the port had. What is unfinished is forgotten after a silence of 0.25 s at the host. A gateway that holds
+bytes back for longer can join them to the next ones.
 """
 
 from collections.abc import Callable
