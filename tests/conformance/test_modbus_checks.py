@@ -105,6 +105,7 @@ def test_every_model_passes_what_writes(model: Model) -> None:
     assert sum(it.writes for it in results.values()) <= MOST_WRITES
 
 
+@pytest.mark.no_cover
 @each("model", MODELS)
 def test_every_model_passes_everything(model: Model) -> None:
     assert not undone(checked(GROUPS, rtu(model)))
@@ -141,6 +142,7 @@ CHANGES: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.no_cover
 @each("model", [Model.M_7017, Model.M_7018, Model.M_7019R])
 @each("name", CHANGES)
 def test_a_module_with_other_settings_passes(model: Model, name: str) -> None:

@@ -21,6 +21,7 @@ from tests.conformance.zoo.table import PAGE, page, told
 from tests.each import each
 from tests.terminal import Run
 
+pytestmark = pytest.mark.no_cover
 ANIMALS = zoo()
 FAMILIES = HERD.animals
 EVERYTHING = tuple(Hazard)
