@@ -4,9 +4,11 @@
 
 from collections.abc import Callable
 
+from attrs import evolve
+
 from i7000 import DecodeError, Model, Protocol, modbus
 from i7000.conformance.hazard import Hazard
-from i7000.device import State
+from i7000.device import Eeprom, State
 from tests.conformance.zoo.animal import Animal
 from tests.conformance.zoo.species import (
     Herd,
@@ -369,6 +371,14 @@ class AddressNotTaken(Animal):
     def step(self, state: State, frame: bytes, now: float) -> tuple[State, bytes | None]:
         after, answer = super().step(state, frame, now)
         return after.store(address=state.eeprom.address).keep(address=state.ram.address), answer
+
+
+@HERD.animal("type-forgotten", PLAIN, "init/kept-register", allow=[WRITE])
+class TypeForgotten(Animal):
+    """The types of the channels are forgotten without power."""
+
+    def stored(self, eeprom: Eeprom) -> Eeprom:
+        return evolve(eeprom, type_codes=PLAIN.type_codes)
 
 
 # --- time -------------------------------------------------------------------------------------------------------------

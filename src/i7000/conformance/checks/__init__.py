@@ -8,7 +8,20 @@ under the same id in `STEPS`. A check passes by ending; what it raises ends it o
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from i7000.conformance.checks import consistency, dcon, frame, init, link, map, rtu, stateful, statement, timing, values  # noqa: A004
+from i7000.conformance.checks import (
+    consistency,
+    dcon,
+    frame,
+    init,
+    init_modbus,
+    link,
+    map,  # noqa: A004
+    rtu,
+    stateful,
+    statement,
+    timing,
+    values,
+)
 from i7000.conformance.checks.steps import Steps
 
 __all__ = ["STEPS", "Steps"]
@@ -25,6 +38,7 @@ STEPS: Mapping[str, Steps] = MappingProxyType(
         **timing.STEPS,
         **stateful.STEPS,
         **init.STEPS,
+        **init_modbus.STEPS,
         **statement.STEPS,
     }
 )

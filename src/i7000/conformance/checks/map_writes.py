@@ -31,7 +31,7 @@ from i7000.modbus import Area, Kind, Register
 from i7000.models import Model
 from i7000.type_codes import TypeCode
 
-__all__ = ["STEPS", "WRITTEN"]
+__all__ = ["STEPS", "WRITTEN", "other_value", "put_and_read"]
 
 Other = Callable[[Subject, int], int]
 """Returns another value for an item, by the one that it has: as a bit or a word."""
@@ -103,6 +103,14 @@ no records.
 """
 
 
+def other_value(module: Subject, row: Register, value: int) -> int:
+    """Return another value for an item of a row than the one that it has.
+
+    Errors: `Skipped` if the module has no other.
+    """
+    return _OTHERS.get(row.name, _flipped)(module, value)
+
+
 # --- written, read back and restored ----------------------------------------------------------------------------------
 
 
@@ -112,12 +120,13 @@ def _one_written(area: Area, name: str, module: Subject) -> Procedure[None]:
     before = yield from read_row(module, row)
     channels = min(row.count, len(module.channels))
     at = module.chance.randrange(channels)
-    new = (*before[:at], _OTHERS.get(name, _flipped)(module, before[at]), *before[at + 1 :])
-    put = partial(_put_and_read, module, row, at)
+    new = (*before[:at], other_value(module, row, before[at]), *before[at + 1 :])
+    put = partial(put_and_read, module, row, at)
     yield from changed_and_restored(module, put(new), partial(put, before))
 
 
-def _put_and_read(module: Subject, row: Register, at: int, values: Sequence[int]) -> Procedure[None]:
+def put_and_read(module: Subject, row: Register, at: int, values: Sequence[int]) -> Procedure[None]:
+    """Write the item at a place of a row, and read all items of it, which must be `values`."""
     request = write_of(row, at, values[at : at + 1])(module.address)
     yield from module.expect(request)
     _compare(module, request, row.kind, (yield from read_row(module, row)), values)
@@ -139,7 +148,7 @@ def _block_written(area: Area, names: Sequence[str], module: Subject) -> Procedu
     before = yield from items(module, area, rows[0].address, len(rows))
     if rows[0].name == "log_command":
         _check_stopped(before[0])
-    new = tuple(_OTHERS.get(row.name, _flipped)(module, value) for row, value in zip(rows, before, strict=True))
+    new = tuple(other_value(module, row, value) for row, value in zip(rows, before, strict=True))
     put = partial(_put_all, module, rows)
     yield from changed_and_restored(module, put(new), partial(put, before))
 
@@ -258,12 +267,12 @@ def _watchdog_written(module: Subject) -> Procedure[None]:
     (on,) = yield from read_row(module, switch)
 
     def change() -> Procedure[None]:
-        yield from _put_and_read(module, timeout, 0, (_OTHERS[timeout.name](module, seconds),))
-        yield from _put_and_read(module, switch, 0, (1 - on,))
+        yield from put_and_read(module, timeout, 0, (other_value(module, timeout, seconds),))
+        yield from put_and_read(module, switch, 0, (1 - on,))
 
     def restore() -> Procedure[None]:
-        yield from _put_and_read(module, switch, 0, (on,))
-        yield from _put_and_read(module, timeout, 0, (seconds,))
+        yield from put_and_read(module, switch, 0, (on,))
+        yield from put_and_read(module, timeout, 0, (seconds,))
 
     yield from changed_and_restored(module, change(), restore, 2)
 
@@ -327,7 +336,7 @@ def _not_accepted(module: Subject, row: Register, value: int) -> Procedure[None]
         _compare(module, request, row.kind, (yield from read_row(module, row)), before)
     except Reason:
         with suppress(Reason):
-            yield from _put_and_read(module, row, 0, before)
+            yield from put_and_read(module, row, 0, before)
         raise
 
 
