@@ -36,6 +36,24 @@ def test_the_longest_frame_is_found_and_one_byte_more_is_noise() -> None:
     assert ((Noise(b"!0" + longest[1:], Fault.LENGTH),), b"") == split(b"!0" + longest[1:])
 
 
+@pytest.mark.parametrize("checked", [False, True])
+def test_the_longest_frame_has_a_body_and_one_byte_more_has_none(checked: bool) -> None:  # noqa: FBT001
+    body = b"!" + b"0" * (LONGEST_FRAME - (4 if checked else 2))
+    longest = seal(body, checksum=checked)
+
+    assert len(longest) == LONGEST_FRAME
+    assert body == unseal(longest, checksum=checked)
+    with pytest.raises(DecodeError, match=f"1 to {LONGEST_FRAME} bytes"):
+        unseal(seal(body + b"0", checksum=checked), checksum=checked)
+
+
+def test_the_fault_of_the_longest_frame_is_not_its_length() -> None:
+    with pytest.raises(DecodeError) as caught:
+        unseal(b"!" + b"0" * (LONGEST_FRAME - 1), checksum=False)
+
+    assert Fault.TERMINATOR is caught.value.fault
+
+
 def test_less_than_a_frame_is_kept_whatever_comes() -> None:
     for junk in (b"$", b"x", b"\xff", b"$0", b"\r", b"!" + b"0" * 300):
         _, rest = split(junk * 10_000)

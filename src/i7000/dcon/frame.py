@@ -96,7 +96,7 @@ def _damage(frame: bytes, leads: bytes) -> DecodeError:
     offset = frame.index(strange)
     if offset != end:
         return DecodeError(Fault.CHARACTER, frame, offset, allowed="characters 20h..7Eh", section="2")
-    return DecodeError(Fault.LEADING, frame, 0, allowed=" ".join(leads.decode()), section="2")
+    return DecodeError(Fault.LEADING, frame, allowed=" ".join(leads.decode()), section="2")
 
 
 def split(buffer: bytes, *, checksum: bool = False) -> tuple[tuple[bytes | Noise, ...], bytes]:
