@@ -23,7 +23,8 @@ def test_a_frame_that_is_refused_beside_the_checks_is_a_usage_error(run: Run, mo
 
     monkeypatch.setattr("i7000.cli.reached.silence_cause", cause)
 
-    told = run("check", "sim:I-7018", "link/alive", "--address", "9")
+    line = ("--baud", "9600", "--character-format", "N81")
+    told = run("check", "sim:I-7018", "link/alive", "--address", "9", *line)
 
     assert told.code == 2
     assert told.err == "i7000: ~01I\\r was not sent: it can make the module unreachable (--allow comm)\n"

@@ -12,7 +12,8 @@ import pytest
 
 from i7000 import LineSettings, Protocol
 from i7000.cli import scanning
-from i7000.cli.scanning import GUIDE, Search, advice, duration_words
+from i7000.cli.durations import duration_words
+from i7000.cli.scanning import GUIDE, Search, advice
 from i7000.host.procedures import EVERY_LINE, SCAN_POLICY, FindingKind
 from i7000.link import VirtualPort, open_target
 from i7000.simulator.faults import Faults

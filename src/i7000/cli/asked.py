@@ -19,6 +19,8 @@ __all__ = ["DEFAULT_ONE", "LEFT_CHANGED", "Asked", "OneModule", "Yes", "asked_of
 
 LEFT_CHANGED = 6
 """The exit code if the module was left changed, or may be."""
+_WITHOUT_LINE = ("exec:", "socket:")
+"""The targets that pass bytes on whatever the line settings of the host are."""
 Yes = Annotated[bool, Parameter(help="Do it without asking you first.", negative="")]
 
 
@@ -45,14 +47,21 @@ class Asked:
     policy: Policy
     echo: bool
     wanted: Wanted
+    others: tuple[LineSettings, ...] = ()
+    """The line settings at which the module is looked for if it does not answer."""
 
 
-def asked_of(target: str, line: LineOptions, asking: AskOptions, one: OneModule, module: Module) -> Asked:
+def asked_of(  # noqa: PLR0913 - each of them is an option
+    target: str, line: LineOptions, asking: AskOptions, one: OneModule, module: Module, *, detected: bool = False
+) -> Asked:
     """Return the module that options describe.
 
+    Shape: with `detected`, line settings that are not given are looked for, at a target that has some.
     Errors: `UsageError`.
     """
-    first, *others = wanted(() if one.address is None else (one.address,), module, one.protocol)
-    if others and one.address is None:
+    first, *more = wanted(() if one.address is None else (one.address,), module, one.protocol)
+    if more and one.address is None:
         raise UsageError("--model describes several modules: give the --address of one")
-    return Asked(target, line.settings(), asking.policy(), asking.echo, first)
+    settings = line.settings()
+    others = line.others() if detected and not target.startswith(_WITHOUT_LINE) else ()
+    return Asked(target, settings, asking.policy(), asking.echo, first, others)

@@ -87,6 +87,9 @@ def check(  # noqa: PLR0913 - each of them is an option
     model. What it answers is compared with a model of it that has the same settings. Checks of what the module does not
     have are skipped as `not-applicable`.
 
+    A module that does not answer is looked for at the baud rates and character formats that you do not give, unless
+    they mean nothing to the target (`exec:` and `socket:`). What was found is printed, and used for the run.
+
     Verdicts:
 
     * `PASS`; `PASS-GOOD-ONLY`: it does what it should, but what it should not do was not tested.
@@ -138,4 +141,4 @@ def check(  # noqa: PLR0913 - each of them is an option
         eeprom_writes=eeprom_writes,
         quiet=quiet,
     )
-    return run(asked_of(target, line, asking, one, module), wishes)
+    return run(asked_of(target, line, asking, one, module, detected=True), wishes)

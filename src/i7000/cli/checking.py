@@ -14,6 +14,7 @@ from i7000.cli.baseline import known_failures, write_baseline
 from i7000.cli.check_options import Settings, Wishes, settings_of
 from i7000.cli.check_screen import Screen
 from i7000.cli.check_stream import ReportStream
+from i7000.cli.durations import duration_words
 from i7000.cli.keeping import Keeper
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
@@ -98,7 +99,6 @@ class _Checking:
         """Report how long the run will take: as long as on a simulated module, in virtual time."""
         if self._asked.target.startswith(_SIMULATED):
             return
-        from i7000.cli.scanning import duration_words  # noqa: PLC0415 - it takes time
         from i7000.link import Line as PortLine  # noqa: PLC0415 - a dry run needs a line of its own
 
         ram = one.twin.state.ram

@@ -47,22 +47,37 @@ Target = Annotated[
 @Parameter(name="*")
 @frozen
 class LineOptions:
-    """The settings of the line."""
+    """The settings of the line; None is what was not given."""
 
-    baud: str = "9600"
-    """Baud rate of the line: 1200 to 115200."""
-    character_format: Literal["N81", "N82", "E81", "O81"] = "N81"
-    """Parity and stop bits of the line, with 8 data bits."""
+    baud: str | None = None
+    """Baud rate of the line: 1200 to 115200. Default: 9600."""
+    character_format: Literal["N81", "N82", "E81", "O81"] | None = None
+    """Parity and stop bits of the line, with 8 data bits. Default: N81."""
 
-    def settings(self) -> LineSettings:
-        """Return the settings.
+    def settings(self, otherwise: LineSettings = LineSettings()) -> LineSettings:  # noqa: B008 - frozen
+        """Return the settings, from `otherwise` unless they are given.
 
         Errors: `UsageError` for a baud rate that no module has.
         """
-        rate = baud_rate(self.baud)
-        if not isinstance(rate, BaudRate):
-            raise UsageError(f"--baud {self.baud}: no module has this baud rate")
-        return LineSettings(rate, CharacterFormat[self.character_format])
+        line = otherwise
+        if self.baud is not None:
+            rate = baud_rate(self.baud)
+            if not isinstance(rate, BaudRate):
+                raise UsageError(f"--baud {self.baud}: no module has this baud rate")
+            line = evolve(line, baud_rate=rate)
+        if self.character_format is not None:
+            line = evolve(line, character_format=CharacterFormat[self.character_format])
+        return line
+
+    def others(self) -> tuple[LineSettings, ...]:
+        """Return the other settings that a module can have: what is given is the same in all of them.
+
+        Errors: as for `settings`.
+        """
+        from i7000.host.procedures import EVERY_LINE  # noqa: PLC0415 - most commands do without it
+
+        first = self.settings()
+        return tuple(line for line in EVERY_LINE if line != first and self.settings(line) == line)
 
 
 DEFAULT_LINE = LineOptions()

@@ -13,10 +13,12 @@ from attrs import define, evolve, frozen
 from i7000 import I7000Error, InvalidValueError, Model, Profile, Protocol
 from i7000.cli.asked import Asked
 from i7000.cli.confirm import confirmed
+from i7000.cli.durations import duration_words
+from i7000.cli.elsewhere import Elsewhere, answers_words
 from i7000.cli.port import BreakingEnding, broken_off_by_signals, opened
 from i7000.cli.silence import silence_cause
 from i7000.cli.station import at_words, found_words, merged
-from i7000.cli.stored import stored_settings
+from i7000.cli.stored import line_words, stored_settings
 from i7000.cli.text import Printer
 from i7000.cli.wanted import Wanted
 from i7000.cli.words import LineError, UsageError
@@ -121,15 +123,35 @@ def reach(
         does not fit.
     """
     wanted = asked.wanted
-    found = open_line.run(identify(wanted.address, protocols=wanted.protocols, checksum=wanted.given.checksum))
+    found, tried = _identified(open_line, wanted), ""
+    if found.protocol is None and asked.others:
+        elsewhere = Elsewhere(wanted, asked.settings, asked.others, open_line.line.policy)
+        tried = f"; tried: {elsewhere.tried_words}"
+        if _moved(open_line, elsewhere, note):
+            found = _identified(open_line, wanted)
     if found.protocol is None:
         with open_line.ending.breakable():
             cause = silence_cause(open_line.line, wanted.address, wanted.tried, wanted.given.model)
-        raise LineError(f"{at_words(wanted.address)} does not answer: {cause}")
+        raise LineError(f"{at_words(wanted.address)} does not answer: {cause}{tried}")
     profile = _profile(wanted, found, like, nearest=nearest)
     for words in found_words(wanted, found, profile, open_line.run(stored_settings(found))):
         note(words)
     return Reached(open_line, wanted.address, found.protocol, profile)
+
+
+def _identified(open_line: OpenLine, wanted: Wanted) -> Identified:
+    return open_line.run(identify(wanted.address, protocols=wanted.protocols, checksum=wanted.given.checksum))
+
+
+def _moved(open_line: OpenLine, elsewhere: Elsewhere, note: Note) -> bool:
+    """Look for a module at other line settings, and leave the line at those at which it answers, if there are any."""
+    at, longest = at_words(elsewhere.wanted.address), duration_words(elsewhere.seconds)
+    looking = f"looking for it at {elsewhere.count_words}, up to {longest}"
+    note(f"{at} does not answer at {line_words(elsewhere.first)}: {looking}")
+    place = open_line.run(elsewhere.procedure())
+    if place is not None:
+        note(f"{at} answers at {answers_words(place)}")
+    return place is not None
 
 
 def given_profile(wanted: Wanted) -> Profile:

@@ -14,6 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 
 from i7000 import BaudRate, LineSettings, Protocol, describe
 from i7000.cli.choices import PROTOCOLS
+from i7000.cli.durations import duration_words
 from i7000.cli.port import broken_off_by_signals, opened
 from i7000.cli.silence import protocol_words
 from i7000.cli.station import candidates_words
@@ -39,7 +40,7 @@ from i7000.host.procedures import (
 from i7000.host.procedures import Progress as Done
 from i7000.link import Line, LinkError
 
-__all__ = ["GUIDE", "Search", "advice", "duration_words", "run"]
+__all__ = ["GUIDE", "Search", "advice", "run"]
 
 
 @frozen
@@ -110,19 +111,6 @@ def _identifying(scanning: Procedure[Scanned], policy: Policy) -> Procedure[Scan
 
 
 # --- words ------------------------------------------------------------------------------------------------------------
-
-
-def duration_words(seconds: float) -> str:
-    """Return a duration in words.
-
-    >>> duration_words(0.4), duration_words(75), duration_words(7300)
-    ('1 s', '1 min 15 s', '2 h 1 min')
-    """
-    whole = max(1, round(seconds))
-    hours, minutes, rest = whole // 3600, whole // 60 % 60, whole % 60
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
 def _found_words(found: Found) -> str:
