@@ -510,15 +510,38 @@ def test_a_baseline_that_cannot_be_written_is_told(run: Run, here: Path, monkeyp
 # --- the whole --------------------------------------------------------------------------------------------------------
 
 
-def test_a_certificate_ends_with_one_word(run: Run, played: Play) -> None:
+READS_ONLY = "for observe, memory; not allowed: broadcast, write, comm, calibration; without a statement"
+
+
+def test_a_certificate_ends_with_one_word_and_what_it_is_for(run: Run, played: Play) -> None:
     passed = run("check", SIM, "--certify", "--quiet")
     cut = run("check", SIM, "--certify", "--quiet", "--max-time", "1s")
     played(FirmwarePort(lying))
     failed = run("check", SIM, "--certify", "--quiet")
 
     assert [(told.code, told.out.splitlines()[-1]) for told in (passed, cut, failed)] == [
-        (0, "PASSED without a statement"), (5, "UNDECIDED without a statement"), (1, "FAILED without a statement"),
+        (0, f"PASSED {READS_ONLY}"), (5, f"UNDECIDED {READS_ONLY}"), (1, f"FAILED {READS_ONLY}"),
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("options", "scope"),
+    [
+        (("write",), "for observe, memory, write; not allowed: broadcast, comm, calibration; without a statement"),
+        (
+            ("broadcast", "comm", "calibration"),
+            "for observe, memory, broadcast, write, comm, calibration; without a statement",
+        ),
+    ],
+)
+@pytest.mark.usefixtures("here")
+def test_a_certificate_names_what_was_allowed(run: Run, options: tuple[str, ...], scope: str) -> None:
+    allow = [it for option in options for it in ("--allow", option)]
+    told = run(
+        "check", SIM, "--certify", "--quiet", "--max-time", "0.1s", *allow, "--i-can-power-cycle", "--confirm", "7018"
+    )
+
+    assert told.out.splitlines()[-1] == f"UNDECIDED {scope}"
 
 
 def test_two_runs_with_one_seed_give_the_same_report(run: Run, here: Path) -> None:

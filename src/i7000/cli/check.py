@@ -41,8 +41,8 @@ def check(  # noqa: PLR0913 - each of them is an option
     certify: Annotated[
         bool,
         Parameter(
-            help="Check everything, without a baseline, and say in a word whether all passed; it says if no --statement"
-            " was given.",
+            help="Check everything, without a baseline, and say in a word whether all passed, with what was allowed and"
+            " what was not, and if no --statement was given.",
             negative="",
         ),
     ] = False,

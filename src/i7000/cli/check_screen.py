@@ -11,7 +11,7 @@ from i7000.cli.check_text import STYLES, details, sections_words
 from i7000.cli.text import Line, Printer
 from i7000.conformance.exports import reproduction
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
-from i7000.conformance.run import Begun, CheckResult, Planned, Run
+from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run
 from i7000.conformance.settle import Settled
 from i7000.conformance.verdict import SkipReason, Verdict
 
@@ -101,9 +101,18 @@ class Screen:
         self._printer.lines(lines)
         self._printer.flush()
 
-    def word(self, code: int, *, stated: bool) -> None:
-        """Print the outcome in one word, and whether the module was not held against a statement."""
-        self._printer.lines([[(_WORDS.get(code, "FAILED"), "bold"), ("" if stated else " without a statement", "")]])
+    def word(self, code: int, options: Options) -> None:
+        """Print the outcome in one word, and what it is for: the hazards that were allowed, and the statement."""
+        allowed, missing = (
+            ", ".join(hazard.value for hazard in Hazard if (hazard in options.allowed) is wanted)
+            for wanted in (True, False)
+        )
+        scope = [f" for {allowed}"]
+        if missing:
+            scope.append(f"not allowed: {missing}")
+        if options.claims is None:
+            scope.append("without a statement")
+        self._printer.lines([[(_WORDS.get(code, "FAILED"), "bold"), ("; ".join(scope), "")]])
 
 
 def _not_carried_out(one: Run) -> Iterator[str]:

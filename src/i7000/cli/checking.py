@@ -158,7 +158,7 @@ class _Checking:
         if ended:
             self._printer.error("INCOMPLETE: stopped before the end")
         elif self._wishes.certify:
-            self._screen.word(code, stated=self._settings.options.claims is not None)
+            self._screen.word(code, self._settings.options)
         return self._written(code)
 
     def _code(self, one: Run, settled: Settled | None) -> int:
