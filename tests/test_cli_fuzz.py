@@ -1,6 +1,7 @@
 """``i7000 fuzz``: near misses through the guard, until a module does not answer as before."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -181,6 +182,34 @@ def test_a_run_in_which_the_guard_leaves_everything_out_did_not_pass(run: Run, m
 
     assert told.code == 5
     assert "0 frames sent, 3 left out by the guard" in told.out
+
+
+@each("options", [("--frames", "100", "--max-time", "4"), ("--frames", "100")])
+def test_the_time_of_a_run_is_estimated_at_a_real_port(options: tuple[str, ...], run: Run, fragile: Any) -> None:
+    port = fragile(lambda _: False)
+    told = run("fuzz", "exec:./firmware", *options, *QUICK)
+
+    assert told.code == 0
+    estimate = re.search(r"this takes about (\d+) s\n", told.err)
+    assert estimate
+    assert int(estimate[1]) == 4 if "--max-time" in options else 0.5 < int(estimate[1]) / port.now() < 1.5
+
+
+def test_no_time_is_estimated_for_a_simulated_module(run: Run) -> None:
+    assert "this takes about" not in run("fuzz", "sim:I-7018", "--frames", "5", *QUICK).err
+
+
+def test_progress_is_drawn_on_a_terminal(run: Run, fragile: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    fragile(lambda wire: len(wire) > 60)
+    monkeypatch.setattr("i7000.cli.text.Printer.is_interactive", property(lambda _: True))
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    told = run("fuzz", "sim:I-7018", "--frames", "2000", *QUICK)
+
+    assert told.code == 1
+    assert "/2000" in told.out
+    assert "left out by the guard" in told.out
+    assert "looking for the fewest frames that make it fail: at most 200 tries" in told.err
+    assert "/200 " in told.out
 
 
 WRONG = (

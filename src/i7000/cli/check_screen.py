@@ -3,20 +3,17 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from i7000.cli.baseline import known_failures
 from i7000.cli.check_stream import ReportStream
 from i7000.cli.check_text import STYLES, details, sections_words
+from i7000.cli.progress import Draw, progress
 from i7000.cli.text import Line, Printer
 from i7000.conformance.exports import reproduction
 from i7000.conformance.hazard import DEFAULT_ALLOWED, Hazard
 from i7000.conformance.run import Begun, CheckResult, Options, Planned, Run
 from i7000.conformance.settle import Settled
 from i7000.conformance.verdict import SkipReason, Verdict
-
-if TYPE_CHECKING:
-    from rich.progress import Progress, TaskID
 
 __all__ = ["Screen"]
 
@@ -27,7 +24,6 @@ _SETTLED = frozenset({Verdict.PASS, Verdict.SKIP, Verdict.INFO})
 """What is not shown if only failures are wanted."""
 _ROOM = 40
 """The characters of an id, in most rows."""
-_BAR = 20
 
 
 class Screen:
@@ -38,36 +34,25 @@ class Screen:
     ) -> None:
         self._printer, self._stream, self._baseline, self._quiet = printer, stream, baseline, quiet
         self._group = ""
-        self._bar: tuple[Progress, TaskID] | None = None
+        self._draw: Draw = lambda _steps, _words: None
+        self._words = ""
+        """What is carried out."""
 
     @contextmanager
     def progress(self, planned: Sequence[Planned]) -> Iterator[None]:
         """Draw a progress bar until the end, on a terminal."""
-        if not self._printer.is_interactive:
+        with progress(self._printer, sum(it.skip is None for it in planned)) as self._draw:
             yield
-            return
-        from rich.progress import BarColumn, Progress, TextColumn  # noqa: PLC0415 - it takes time
-
-        console = self._printer.out if self._printer.out.is_terminal else self._printer.err
-        columns = (BarColumn(bar_width=_BAR), TextColumn("{task.completed}/{task.total} {task.description}"))
-        with Progress(*columns, console=console, transient=True, redirect_stdout=False, redirect_stderr=False) as bar:
-            self._bar = bar, bar.add_task("", total=sum(it.skip is None for it in planned))
-            try:
-                yield
-            finally:
-                self._bar = None
 
     def begin(self, begun: Begun) -> None:
         """Draw what is carried out."""
-        if self._bar:
-            bar, task = self._bar
-            bar.update(task, description=begun.statement.id)
+        self._words = begun.statement.id
+        self._draw(0, self._words)
 
     def show(self, result: CheckResult) -> None:
         """Print what became of a check."""
-        if self._bar and result.verdict is not Verdict.SKIP:
-            bar, task = self._bar
-            bar.advance(task)
+        if result.verdict is not Verdict.SKIP:
+            self._draw(1, self._words)
         known = result.id in known_failures([result], self._baseline)
         if result.reason in _COUNTED or (self._quiet and (result.verdict in _SETTLED or known)):
             return

@@ -6,6 +6,7 @@ Laws: whatever ends the run, the module is restored, and what became of it is sa
 import signal
 from contextlib import ExitStack
 from datetime import UTC, datetime
+from functools import partial
 from importlib.metadata import version
 
 from i7000 import spec
@@ -14,8 +15,8 @@ from i7000.cli.baseline import known_failures, write_baseline
 from i7000.cli.check_options import Settings, Wishes, settings_of
 from i7000.cli.check_screen import Screen
 from i7000.cli.check_stream import ReportStream
-from i7000.cli.durations import duration_words
 from i7000.cli.keeping import Keeper
+from i7000.cli.progress import note_estimate
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
 from i7000.cli.snapshot_file import check_new
@@ -35,8 +36,6 @@ from i7000.models import Model
 
 __all__ = ["run"]
 
-_SIMULATED = "sim:"
-"""The targets whose time is virtual: they take none."""
 _INTERNAL = 4
 _UNWRITABLE = 2
 _NOTHING = 5
@@ -92,13 +91,12 @@ class _Checking:
             self._stream.open(stack)
             self._keeper.keep(before, there)
             self._begin(before, there, one, planned)
-            self._estimate(one, eeprom)
+            estimated, limit = partial(self._estimated, one, eeprom), options.seconds
+            note_estimate(self._printer, self._asked.target, estimated, limit)
             return self._carry_out(open_line, one, before)
 
-    def _estimate(self, one: Run, eeprom: Eeprom) -> None:
-        """Report how long the run will take: as long as on a simulated module, in virtual time."""
-        if self._asked.target.startswith(_SIMULATED):
-            return
+    def _estimated(self, one: Run, eeprom: Eeprom) -> float:
+        """Return how long the run takes: as long as on a simulated module, in virtual time."""
         from i7000.link import Line as PortLine  # noqa: PLC0415 - a dry run needs a line of its own
 
         ram = one.twin.state.ram
@@ -108,9 +106,7 @@ class _Checking:
         port = VirtualPort([state], line=one.line)
         with PortLine(GuardedPort(port, one.options.allowed), one.line) as line:
             line.run(dry.procedure())
-        limit = one.options.seconds
-        took = port.now() if limit is None else min(port.now(), limit)
-        self._printer.note(f"this takes about {duration_words(took)}")
+        return port.now()
 
     def _begin(self, before: Snapshot, there: Reached, one: Run, planned: tuple[Planned, ...]) -> None:
         given = self._asked.wanted.given.model

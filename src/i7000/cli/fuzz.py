@@ -39,6 +39,8 @@ def fuzz(  # noqa: PLR0913 - each of them is an option
     them. A guard looks at the bytes of each frame: one that a firmware could take for a write, or for anything that
     changes a module, is left out. It is safe to use on a module in operation, but not on a line that others poll.
 
+    At a real port, the command first prints how long it takes.
+
     After every 20 frames a legal read, the sentinel, must be answered as at the start. The first time that it is not,
     the run stops. With `sim:` and `exec:` the module is restarted then, and the frames are sent again with parts left
     out, until only those remain that are needed.

@@ -10,10 +10,12 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from attrs import define, field, frozen
+from attrs import define, evolve, field, frozen
 
 from i7000 import Protocol
 from i7000.cli.asked import LEFT_CHANGED, Asked
+from i7000.cli.keeping import home_of
+from i7000.cli.progress import Draw, note_estimate, progress
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as run_at_port
 from i7000.cli.text import Printer
@@ -22,7 +24,7 @@ from i7000.conformance.fuzzing import fewest, near_miss, reads, sentinel
 from i7000.errors import written
 from i7000.host import Answered
 from i7000.host.procedures import Snapshot, ask, diff, snapshot
-from i7000.link import GuardedPort
+from i7000.link import GuardedPort, Line, VirtualPort
 from i7000.link.port import clock_of, read, write
 from i7000.message import Query, Response
 
@@ -31,6 +33,8 @@ __all__ = ["Plan", "run"]
 _EVERY = 20
 """The number of frames between two sentinels."""
 _MOST_TRIES = 200
+_FIRST = 200
+"""The frames whose time is estimated; the others take as long."""
 _QUIET = 0.02
 """The seconds without a byte after which an answer is over."""
 _MOST_HEARD = 4096
@@ -123,7 +127,10 @@ def _fuzz(open_line: OpenLine, plan: Plan, printer: Printer) -> int:
         if this.first is None:
             printer.error(f"{module.words} does not answer {type(this.sentinel).__name__}")
             return 3
-        outcome = _send_all(this, plan)
+        limit = plan.max_time
+        note_estimate(printer, plan.asked.target, lambda: _estimated(this, plan, before), limit)
+        with progress(printer, plan.frames) as draw:
+            outcome = _send_all(this, plan, draw)
     text = f"{this.sent} frames sent, {this.refused} left out by the guard"
     if not outcome and (changes := _changes(before, this.settings())):
         printer.error(f"{module.words} has other settings after {text}: {', '.join(changes)}")
@@ -133,7 +140,7 @@ def _fuzz(open_line: OpenLine, plan: Plan, printer: Printer) -> int:
         return 0 if this.sent else _NOTHING_SENT
     printer.error(f"{module.words} is {outcome} after {text}")
     with open_line.ending.breakable():
-        case = _case(this, plan, outcome)
+        case = _case(this, plan, outcome, printer)
     words = json.dumps(case, indent=1)
     printer.write(words)
     printer.flush()
@@ -155,7 +162,21 @@ def _changes(before: Snapshot, after: Snapshot) -> list[str]:
     ]
 
 
-def _send_all(this: _Run, plan: Plan) -> str:
+def _estimated(this: _Run, plan: Plan, before: Snapshot) -> float:
+    """Return how long a plan takes: in proportion to its first frames on a simulated module, in virtual time."""
+    module = this.module
+    settings, policy = module.open.line.line, module.open.line.policy
+    port = VirtualPort([home_of(before, module).state], line=settings)
+    frames = min(plan.frames, _FIRST)
+    with Line(GuardedPort(port), settings, policy) as line:
+        there = Reached(evolve(module.open, line=line), module.address, module.protocol, module.profile)
+        dry = _Run(there, this.sentinel, this.wait)
+        dry.first = dry.answer()
+        _send_all(dry, evolve(plan, frames=frames, max_time=None), lambda _steps, _words: None)
+    return port.now() * plan.frames / frames
+
+
+def _send_all(this: _Run, plan: Plan, draw: Draw) -> str:
     """Send the frames of a plan; return how the sentinel failed, or an empty text."""
     chance = Random(plan.seed).randrange  # noqa: S311 - repeatable
     module, clock = this.module, clock_of(this.port)
@@ -165,6 +186,7 @@ def _send_all(this: _Run, plan: Plan) -> str:
         if until is not None and clock() >= until:
             break
         wire = near_miss(frames, module.protocol, chance)
+        draw(1, f"{this.refused} left out by the guard")
         if not this.send(wire):
             this.refused += 1
             continue
@@ -177,19 +199,22 @@ def _send_all(this: _Run, plan: Plan) -> str:
     return this.is_lost() if this.since else ""
 
 
-def _case(this: _Run, plan: Plan, outcome: str) -> dict[str, object]:
+def _case(this: _Run, plan: Plan, outcome: str, printer: Printer) -> dict[str, object]:
     frames, tries, reproduced = tuple(this.since), 0, False
     if hasattr(this.port, "power_cycle"):
         fails: Callable[[tuple[bytes, ...]], bool] = lambda tried: _fails(this, tried)  # noqa: E731
         reproduced = _restarts(this) and fails(frames)
         if reproduced:
+            printer.note(f"looking for the fewest frames that make it fail: at most {_MOST_TRIES} tries")
             search = fewest(frames, _MOST_TRIES)
-            try:
-                less = next(search)
-                while True:
-                    less = search.send(fails(less))
-            except StopIteration as end:
-                frames, tries = end.value
+            with progress(printer, _MOST_TRIES) as draw:
+                try:
+                    less = next(search)
+                    while True:
+                        draw(1, f"{len(less)} frames")
+                        less = search.send(fails(less))
+                except StopIteration as end:
+                    frames, tries = end.value
     module = this.module
     return {
         "record": "fuzz-case",

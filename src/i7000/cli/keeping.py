@@ -12,14 +12,14 @@ from i7000.cli.snapshot_file import write_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance.hazard import STORED, Hazard
-from i7000.conformance.oracle import Twin
+from i7000.conformance.oracle import Twin, eeprom_of
 from i7000.conformance.settle import Settled, settle
 from i7000.errors import I7000Error
 from i7000.host.procedures import Snapshot
 from i7000.link.bench import snapshot_name
 from i7000.settings import LineSettings
 
-__all__ = ["Keeper"]
+__all__ = ["Keeper", "home_of"]
 
 
 class Keeper:
@@ -78,3 +78,10 @@ class Keeper:
         if left == LEFT_CHANGED and self._kept:
             words = f"i7000 restore {shlex.quote(self._target)} {shlex.quote(self._kept)}"
             self._printer.error(f"restore it with {words}")
+
+
+def home_of(before: Snapshot, there: Reached) -> Twin:
+    """Return the model of a module with the settings of a snapshot, and how it is spoken to now."""
+    eeprom = eeprom_of(before)
+    home = Twin.of(eeprom, 0.0, init_switch=there.address == 0 != eeprom.address)
+    return Twin(home.state.keep(checksum=there.profile.checksum, line_settings=there.open.line.line))

@@ -11,7 +11,7 @@ from attrs import frozen
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, asked_of
 from i7000.cli.check_options import allowed_of, check_limits
 from i7000.cli.choices import protocol_word
-from i7000.cli.keeping import Keeper
+from i7000.cli.keeping import Keeper, home_of
 from i7000.cli.options import UNKNOWN, Module
 from i7000.cli.port import AskOptions, LineOptions
 from i7000.cli.reached import OpenLine, Reached, reach
@@ -22,7 +22,6 @@ from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance import GuardError
 from i7000.conformance.hazard import Hazard
-from i7000.conformance.oracle import Twin, eeprom_of
 from i7000.conformance.replay import Replayed
 from i7000.conformance.replay import replay as replaying
 from i7000.conformance.report import Report, ReportError, read_report
@@ -114,7 +113,8 @@ class _Replaying:
         return self._carry_out(open_line, before, there)
 
     def _carry_out(self, open_line: OpenLine, before: Snapshot, there: Reached) -> int:
-        ended, failure, line = 0, None, open_line.line.line
+        ended, failure, home = 0, None, home_of(before, there)
+        line = open_line.line.line
         try:
             with open_line.ending.breakable():
                 open_line.line.run(replaying(self._report, timeout_scale=self._wishes.timeout_scale), self._tell)
@@ -129,9 +129,6 @@ class _Replaying:
         except (Exception, SystemExit) as error:  # noqa: BLE001 - first of all the module is restored
             failure = error
         self._port.budget = None
-        eeprom = eeprom_of(before)
-        home = Twin.of(eeprom, 0.0, init_switch=there.address == 0 != eeprom.address)
-        home = Twin(home.state.keep(checksum=there.profile.checksum, line_settings=line))
         settled = self._keeper.settle(open_line, before, home, line, home)
         left = self._keeper.left(settled, may_have_changed=bool(self._port.writes))
         self._summary(settled)
