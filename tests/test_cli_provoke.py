@@ -2,9 +2,11 @@
 
 import json
 import os
+import shlex
 import signal
 import socket
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -74,18 +76,47 @@ def test_the_example_driver_passes_by_modbus_over_a_network(run: Run) -> None:
 def test_naive_drivers_fail_with_the_bytes_and_a_reason(run: Run, tmp_path: Path, driver: Any, name: str) -> None:
     path = tmp_path / "report.jsonl"
 
-    told = run(
-        "provoke", "--scenario", name, "--report", f"json={path}", "--patience", "3",
-        *("--", sys.executable, str(driver.__file__), "{target}"),
-    )  # fmt: skip
+    again = ("--patience", "3", "--", sys.executable, str(driver.__file__), "{target}")
+    told = run("provoke", "--scenario", name, "--report", f"json={path}", *again)
 
     assert told.code == 1
     assert told.out.splitlines()[0].startswith(f"FAIL         {name}")
     assert "-> #01  ReadAnalogInputs" in told.out
-    assert f"again: i7000 provoke --scenario {name} --seed 0" in told.out
+    assert f"again: {shlex.join(('i7000', 'provoke', '--scenario', name, '--seed', '0', *again))}\n" in told.out
     start, scenario, end = records(path)
     assert (start["scenarios"], scenario["verdict"], end["exit_code"]) == ([name], "FAIL", 1)
     assert scenario["findings"][0]["traffic"][0]["request"] in (b"#01\r".hex(), b"#02\r".hex())
+
+
+def test_the_line_that_plays_a_scenario_again_can_be_run(run: Run) -> None:
+    given = (
+        "--pty", "--tcp", "0", "--rfc2217", "127.0.0.1:0", "--model", "I-7018,type=J", "--model", "I-7018,type=K",
+        "--max-time", "60", "--patience", "0.5",
+    )  # fmt: skip
+    driver = script('import sys; print(\'{"address": 1}\', flush=True); "it\'s"')
+    told = run("provoke", "--scenario", "echo", "--seed", "7", *given, *driver)
+    again = next(line for line in told.out.splitlines() if line.startswith("  again: "))
+    words = shlex.split(again.removeprefix("  again: "))
+    repeated = run(*words[1:])
+
+    assert (told.code, words[:2]) == (3, ["i7000", "provoke"])
+    assert (repeated.code, again in repeated.out.splitlines()) == (3, True)
+    assert sorted(words[2:]) == sorted(("--scenario", "echo", "--seed", "7", *given, *driver))
+
+
+def test_the_line_for_a_driver_that_somebody_else_starts_names_its_output(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "out.jsonl"
+    path.touch()
+
+    def write_later() -> None:
+        time.sleep(0.3)
+        path.write_text('{"address": 1}\n')
+
+    Thread(target=write_later).start()
+    told = run("provoke", "--scenario", "echo", "--tcp", "0", "--driver-output", str(path))
+
+    assert told.code == 3
+    assert f"again: i7000 provoke --scenario echo --seed 0 --tcp 0 --driver-output {path}\n" in told.out
 
 
 def records(path: Path) -> list[Any]:
@@ -386,7 +417,7 @@ def test_ctrl_c_ends_the_driver_and_leaves_the_report_without_its_end(run: Run, 
 
 def shown(*findings: Finding, exchanges: tuple[Observed, ...] = ()) -> list[str]:
     result = provoke_report.Result(SCENARIOS[0], Judgement(Verdict.FAIL, findings), 1.0, exchanges)
-    return ["".join(part for part, _ in line) for line in provoke_report.result_lines(result, 7)]
+    return ["".join(part for part, _ in line) for line in provoke_report.result_lines(result, "again")]
 
 
 def test_a_finding_without_traffic_has_none() -> None:

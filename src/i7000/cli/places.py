@@ -30,6 +30,13 @@ class PlaceOptions:
         """Whether a pseudo-terminal is opened."""
         return self.pty or (self.tcp is None and self.rfc2217 is None)
 
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The options as they were given."""
+        named = (("--tcp", self.tcp), ("--rfc2217", self.rfc2217))
+        words = [word for name, text in named if text is not None for word in (name, text)]
+        return (*(("--pty",) if self.pty else ()), *words)
+
     def places(self) -> "tuple[Place, ...]":
         """Return the places on the network.
 

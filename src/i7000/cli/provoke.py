@@ -18,6 +18,8 @@ __all__ = ["provoke"]
 
 _LONGEST = 86_400.0
 """The longest time in seconds that can be given."""
+_PATIENCE = 15.0
+_MAX_TIME = 1800.0
 _SHORTEST = 60.0
 """The seconds that a scenario may take in any case."""
 
@@ -58,8 +60,8 @@ def provoke(  # noqa: PLR0913 - each of them is an option
     seed: Annotated[int, Parameter(help="Random seed for faults; the same seed repeats the faults.")] = 0,
     patience: Annotated[
         float, Parameter(help="Seconds without a line of the driver after which it counts as a deadlock.")
-    ] = 15.0,
-    max_time: Annotated[float, Parameter(help="Seconds after which no scenario goes on.")] = 1800.0,
+    ] = _PATIENCE,
+    max_time: Annotated[float, Parameter(help="Seconds after which no scenario goes on.")] = _MAX_TIME,
     place: PlaceOptions = DEFAULT_PLACES,
 ) -> int:
     """Provoke a driver: play everything that a line does, and judge what the driver believes.
@@ -91,11 +93,15 @@ def provoke(  # noqa: PLR0913 - each of them is an option
         return 0
     chosen = _chosen(scenario)
     _check(command, driver_output, len(chosen))
-    for name, value in (("--patience", patience), ("--max-time", max_time)):
+    times = (("--patience", patience, _PATIENCE), ("--max-time", max_time, _MAX_TIME))
+    for name, value, _ in times:
         if not 0 < value <= _LONGEST:
             raise UsageError(f"{name} {value:g}: give more than 0, and at most {_LONGEST:g} seconds")
     from i7000.cli.provoking import Provoking, run  # noqa: PLC0415 - networks take time to import
 
+    options = [*place.given, *(word for text in model for word in ("--model", text))]
+    options += [word for name, value, default in times if value != default for word in (name, f"{value:g}")]
+    options += () if driver_output is None else ("--driver-output", driver_output)
     provoking = Provoking(
         chosen,
         model,
@@ -108,6 +114,7 @@ def provoke(  # noqa: PLR0913 - each of them is an option
         max(_SHORTEST, 4 * patience),
         patience,
         _report(report),
+        tuple(options),
     )
     return run(provoking, printer)
 

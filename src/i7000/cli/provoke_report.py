@@ -45,8 +45,8 @@ class Result:
 # --- for people -------------------------------------------------------------------------------------------------------
 
 
-def result_lines(result: Result, seed: int) -> Iterator[Line]:
-    """Yield the lines of a result."""
+def result_lines(result: Result, again: str) -> Iterator[Line]:
+    """Yield the lines of a result; `again` is the command that plays its scenario again."""
     scenario, judgement = result.scenario, result.judgement
     verdict = judgement.verdict
     line: Line = [(f"{verdict.value:<13}", _STYLES.get(verdict, "dim")), (f"{scenario.name:<19} ", "bold")]
@@ -65,7 +65,7 @@ def result_lines(result: Result, seed: int) -> Iterator[Line]:
     if len(judgement.findings) > len(shown):
         yield [(f"  and {len(judgement.findings) - len(shown)} more", "")]
     if verdict in (Verdict.FAIL, Verdict.ERROR):
-        yield from _advice(result, seed)
+        yield from _advice(result, again)
 
 
 def _exchange_lines(observed: Observed) -> Iterator[Line]:
@@ -80,13 +80,13 @@ def _arrived(observed: Observed) -> bytes:
     return b"".join(piece.wire for piece in observed.pieces)
 
 
-def _advice(result: Result, seed: int) -> Iterator[Line]:
+def _advice(result: Result, again: str) -> Iterator[Line]:
     scenario = result.scenario
     if result.complaints and any(it.kind in (Kind.ENDED, Kind.DEADLOCK) for it in result.judgement.findings):
         *_, last = result.complaints.strip().splitlines() or [""]
         yield [(f"  its last words: {last}", "")]
     yield [(f"  a right driver: {scenario.right} (manual {', '.join(scenario.sections)})", "")]
-    yield [(f"  again: i7000 provoke --scenario {scenario.name} --seed {seed}", "dim")]
+    yield [(f"  again: {again}", "dim")]
 
 
 def summary(results: Sequence[Result]) -> Iterator[Line]:

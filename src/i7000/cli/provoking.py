@@ -1,6 +1,7 @@
 """A provoked driver at the terminal: how a scenario runs, and when it is over."""
 
 import asyncio
+import shlex
 from collections.abc import Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from functools import partial
@@ -59,6 +60,13 @@ class Provoking:
     patience: float
     """The longest time without a line of the driver, in seconds."""
     report: Path | None
+    options: tuple[str, ...]
+    """What else was given, to be given again."""
+
+    def again(self, scenario: Scenario) -> str:
+        """Return the command that plays a scenario again."""
+        words = ["i7000", "provoke", "--scenario", scenario.name, "--seed", str(self.seed), *self.options]
+        return shlex.join([*words, "--", *self.command] if self.command else words)
 
 
 def run(provoking: Provoking, printer: Printer) -> int:
@@ -82,7 +90,7 @@ def run(provoking: Provoking, printer: Printer) -> int:
             result = _result(provoking, scenario, until, printer)
             results.append(result)
             report.scenario(result)
-            printer.lines(result_lines(result, provoking.seed))
+            printer.lines(result_lines(result, provoking.again(scenario)))
             printer.flush()
         code = _code(results)
         report.end(results, code)
