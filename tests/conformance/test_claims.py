@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from attrs import evolve
 
-from i7000 import InvalidValueError, Model, Protocol, spec
+from i7000 import InvalidValueError, Model, Protocol, modbus, spec
 from i7000.conformance.claims import Claims
 from i7000.conformance.hazard import DEFAULT_ALLOWED
 from i7000.conformance.oracle import eeprom_of
@@ -85,7 +85,8 @@ def test_what_is_claimed_but_not_there_fails_and_so_does_what_is_there_but_not_c
     found = held(eeprom, claims_of(memory(Model.M_7019R, Protocol.MODBUS_RTU)), "statement")
 
     assert found["statement/is-there"].verdict is Verdict.FAIL
-    assert "which is not answered" in found["statement/is-there"].text
+    assert "which is refused" in found["statement/is-there"].text
+    assert modbus.unseal(found["statement/is-there"].received)[1] & 0x80
     assert found["statement/is-all"].verdict is Verdict.FAIL
     assert "which the statement does not claim" in found["statement/is-all"].text
 
@@ -106,6 +107,25 @@ def test_a_claim_that_does_not_hold_fails(changes: dict[str, Any], check: str, t
 
     assert found[check].verdict is Verdict.FAIL
     assert text in found[check].text
+
+
+@pytest.mark.parametrize(
+    ("changes", "check", "sent", "received"),
+    [
+        ({"commands": ("2.16",)}, "statement/is-there", b"$018C0\r", b""),
+        ({"commands": ("2.3",)}, "statement/is-all", b"#010\r", b">"),
+        ({"readings": (("frame/dcon/lower-case", "silence"),)}, "statement/readings", b"$01M\r", b"!017018\r"),
+        ({"readings": (("link/alive", "it sings"),)}, "statement/readings", b"$01M\r", b"!017018\r"),
+    ],
+)
+def test_a_claim_that_does_not_hold_shows_what_the_module_answered(
+    changes: dict[str, Any], check: str, sent: bytes, received: bytes
+) -> None:
+    eeprom = memory(Model.I_7018, Protocol.DCON)
+
+    found = held(eeprom, evolve(claims_of(eeprom), **changes), "statement")[check]
+
+    assert (found.sent, found.received[: len(received) or None]) == (sent, received)
 
 
 def test_what_is_not_claimed_is_not_checked() -> None:

@@ -42,6 +42,17 @@ def test_an_animal_fails_the_checks_that_the_page_of_the_zoo_says(name: str) -> 
     assert len(ids - set(species.caught)) <= species.others
     assert tuple(sorted(ids)) == told()[name]
     assert name not in NOT_THERE or not passed(found)
+    assert not unproved(found)
+
+
+SILENCE = ("answer", "did not end", "not understood", "an empty frame")
+"""Words that say that nothing was heard."""
+
+
+def unproved(found: Caught) -> list[str]:
+    """The failures that say something else of the module than silence, and do not show what it answered."""
+    failures = [it for it in found.results if it.verdict in (Verdict.FAIL, Verdict.WARN) and not it.received]
+    return [it.id for it in failures if not any(words in it.text for words in SILENCE)]
 
 
 def passed(found: Caught) -> list[str]:

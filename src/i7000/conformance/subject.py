@@ -82,6 +82,8 @@ class Subject:
     """The sentinel of the run; None for the first of the plain reads."""
     remark: str = ""
     """What a check that passes has to say."""
+    exchanges: list[tuple[bytes, bytes]] = field(factory=list)
+    """What was sent so far, each with what was heard then."""
 
     @property
     def protocol(self) -> Protocol:
@@ -186,7 +188,14 @@ class Subject:
         delay = self.twin.state.response_delay
         heard: BytesHeard = yield SendBytes(parts, seconds * self.timeout_scale + delay, quiet, ends)
         self.now = heard.now
+        self.exchanges.append((b"".join(wire for _, wire in parts), heard.wire))
         return heard
+
+    def exchange(self, query: Query[Any] | None = None) -> tuple[bytes, bytes]:
+        """Return the last exchange with a command or request, or the last of all: what was sent, and what was heard."""
+        wire = None if query is None else self.wire(query)
+        found = (one for one in reversed(self.exchanges) if wire in (None, one[0]))
+        return next(found, (wire or b"", b""))
 
     def end_line(self) -> Procedure[None]:
         """End what modules of either protocol may have heard as the beginning of a command or request.

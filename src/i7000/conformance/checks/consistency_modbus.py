@@ -25,7 +25,7 @@ _HOLDING = Area.HOLDING_REGISTER
 
 def _compare(module: Subject, what: str, sent: modbus.Request[Any], one: object, other: object) -> None:
     if one != other:
-        raise module.wrong(f"{what}: {one} by function 46h, {other} in the map", module.wire(sent), b"", "the same")
+        raise module.wrong(f"{what}: {one} by function 46h, {other} in the map", *module.exchange(sent), "the same")
 
 
 def _in_register(
@@ -188,7 +188,7 @@ def _span(module: Subject) -> Procedure[None]:
         low, high = code.minimum - code.full_scale, code.maximum + code.full_scale
         if channel in module.enabled and reading.value is not None and not low <= reading.value <= high:
             text = f"channel {channel} of type {int(code):02X} is {reading.value:g} {code.unit.value}"
-            raise module.wrong(text, module.wire(request), b"", f"{code.minimum:g} to {code.maximum:g}")
+            raise module.wrong(text, *module.exchange(request), f"{code.minimum:g} to {code.maximum:g}")
 
 
 STEPS: dict[str, Steps] = {

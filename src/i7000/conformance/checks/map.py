@@ -74,10 +74,11 @@ def _sample(module: Subject, row: Register) -> list[int]:
 
 def _ended(module: Subject, row: Register) -> Procedure[None]:
     """Read the reset status once more: the first read has ended it."""
-    wire = module.wire(READERS[row.area](module.address, row.address, 1))
     (again,) = yield from read_row(module, row)
     if again:
-        raise module.wrong(f"{row.name} is still 1 when it is read again", wire, b"", "0: the first read ends it")
+        raise module.wrong(
+            f"{row.name} is still 1 when it is read again", *module.exchange(), "0: the first read ends it"
+        )
 
 
 def _single_readings(module: Subject, row: Register) -> Procedure[str | None]:
@@ -150,8 +151,7 @@ def _halves(area: Area, module: Subject) -> Procedure[None]:
             for at in range(2):
                 (half,) = yield from items(module, area, row.address + at)
                 if half != both[at] and row.access is Access.READ:
-                    wire = module.wire(READERS[area](module.address, row.address + at, 1))
-                    raise module.wrong(f"half of {row.name} is {half:04X} alone", wire, b"", f"{both[at]:04X}")
+                    raise module.wrong(f"half of {row.name} is {half:04X} alone", *module.exchange(), f"{both[at]:04X}")
 
 
 def _codes(area: Area, module: Subject) -> Procedure[None]:

@@ -129,16 +129,18 @@ def put_and_read(module: Subject, row: Register, at: int, values: Sequence[int])
     """Write the item at a place of a row, and read all items of it, which must be `values`."""
     request = write_of(row, at, values[at : at + 1])(module.address)
     yield from module.expect(request)
-    _compare(module, request, row.kind, (yield from read_row(module, row)), values)
+    _compare(module, row.kind, (yield from read_row(module, row)), values)
 
 
-def _compare(
-    module: Subject, request: modbus.Request[Any], kind: Kind, found: Sequence[int], values: Sequence[int]
-) -> None:
+def _compare(module: Subject, kind: Kind, found: Sequence[int], values: Sequence[int]) -> None:
+    """Compare what the module answered last with the values of items.
+
+    Errors: `Difference`.
+    """
     mask = 0xFF if kind is Kind.INT8 else 0xFFFF  # the high byte is open (E62)
     if [it & mask for it in found] != [it & mask for it in values]:
         text = f"reads back as {' '.join(f'{it:X}' for it in found)}"
-        raise module.wrong(text, module.wire(request), b"", " ".join(f"{it:X}" for it in values))
+        raise module.wrong(text, *module.exchange(), " ".join(f"{it:X}" for it in values))
 
 
 def _block_written(area: Area, names: Sequence[str], module: Subject) -> Procedure[None]:
@@ -168,7 +170,7 @@ def _put_all(module: Subject, rows: Sequence[Register], values: Sequence[int]) -
     else:
         request = modbus.WriteMultipleRegisters(module.address, start, tuple(values))
     yield from module.expect(request)
-    _compare(module, request, rows[0].kind, (yield from items(module, area, start, len(rows))), values)
+    _compare(module, rows[0].kind, (yield from items(module, area, start, len(rows))), values)
 
 
 def _cleared(area: Area, name: str, module: Subject) -> Procedure[None]:
@@ -179,7 +181,7 @@ def _cleared(area: Area, name: str, module: Subject) -> Procedure[None]:
         raise Unclear(f"{name} is {before}; clearing it would lose that")
     request = write_of(row, 0, (row.cleared_by or 0,))(module.address)
     yield from module.expect(request)
-    _compare(module, request, row.kind, (yield from read_row(module, row)), (0,))
+    _compare(module, row.kind, (yield from read_row(module, row)), (0,))
 
 
 def _pair_written(area: Area, name: str, module: Subject) -> Procedure[None]:
@@ -193,7 +195,7 @@ def _pair_written(area: Area, name: str, module: Subject) -> Procedure[None]:
 def _put_and_read_pair(module: Subject, row: Register, values: Sequence[int]) -> Procedure[None]:
     request = modbus.WriteMultipleRegisters(module.address, row.address, tuple(values))
     yield from module.expect(request)
-    _compare(module, request, row.kind, (yield from read_row(module, row)), values)
+    _compare(module, row.kind, (yield from read_row(module, row)), values)
 
 
 # --- the clock of the data logger -------------------------------------------------------------------------------------
@@ -253,7 +255,7 @@ def _set_clock(module: Subject, request: modbus.Request[Any], date: datetime) ->
     yield from module.expect(request)
     found = yield from _clock(module)
     if abs((found - date).total_seconds()) > _SLOW:
-        raise module.wrong(f"the clock is {found}", module.wire(request), b"", f"{date}")
+        raise module.wrong(f"the clock is {found}", *module.exchange(), f"{date}")
 
 
 # --- what can lose the module -----------------------------------------------------------------------------------------
@@ -333,7 +335,7 @@ def _not_accepted(module: Subject, row: Register, value: int) -> Procedure[None]
     request = write_of(row, 0, (value,))(module.address)
     try:
         yield from refused(module, module.wire(request)[1:-2], ADDRESS_OR_VALUE)
-        _compare(module, request, row.kind, (yield from read_row(module, row)), before)
+        _compare(module, row.kind, (yield from read_row(module, row)), before)
     except Reason:
         with suppress(Reason):
             yield from put_and_read(module, row, 0, before)

@@ -139,7 +139,7 @@ def agree(compare: Callable[[], Procedure[str | None]], module: Subject) -> Proc
         found = yield from compare()
         if found is None:
             return
-    raise module.wrong(found or "", b"", b"", "the same in both")
+    raise module.wrong(found or "", *module.exchange(), "the same in both")
 
 
 def distance(one: int, other: int) -> int:

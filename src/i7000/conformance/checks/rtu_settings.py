@@ -136,7 +136,7 @@ def _set(module: Subject, read: Request, write: Callable[[Any], Request], name: 
         yield from module.expect(request)
         found = getattr((yield from module.expect(read)), name)
         if found != value:
-            raise module.wrong(f"{name} reads back as {found}", module.wire(request), b"", str(value))
+            raise module.wrong(f"{name} reads back as {found}", *module.exchange(), str(value))
 
     new = other(before) if callable(other) else other
     yield from changed_and_restored(module, put(new), partial(put, before))

@@ -29,9 +29,9 @@ def _is_there(module: Subject) -> Procedure[None]:
                 f"the statement claims {name}, which no module has", b"", b"", "names of i7000 statement"
             )
         if not (yield from has(module, queries[name])):
-            raise module.wrong(
-                f"the statement claims {name}, which is not answered", module.wire(queries[name]), b"", name
-            )
+            sent, heard = module.exchange(queries[name])
+            what = "is refused" if heard else "is not answered"
+            raise module.wrong(f"the statement claims {name}, which {what}", sent, heard, name)
     yield from module.alive(b"")
 
 
@@ -40,7 +40,7 @@ def _is_all(module: Subject) -> Procedure[None]:
     for name, query in asked(module).items():
         if name not in claimed and (yield from has(module, query)):
             text = f"the module has {name}, which the statement does not claim"
-            raise module.wrong(text, module.wire(query), b"", "a refusal or silence")
+            raise module.wrong(text, *module.exchange(query), "a refusal or silence")
     yield from module.alive(b"")
 
 
@@ -58,7 +58,7 @@ def _is_read_so(module: Subject) -> Procedure[None]:
         except Note as note:
             found = note.text
         if found != claimed:
-            raise module.wrong(f"{check}: {found or 'nothing to note'}", b"", b"", claimed)
+            raise module.wrong(f"{check}: {found or 'nothing to note'}", *module.exchange(), claimed)
     yield from module.alive(b"")
 
 
