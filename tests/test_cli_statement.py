@@ -1,6 +1,7 @@
 """`i7000 statement`, and `i7000 check --statement`."""
 
 import json
+import shlex
 from pathlib import Path
 
 import pytest
@@ -74,6 +75,9 @@ def test_another_module_does_not_pass(run: Run, tmp_path: Path) -> None:
 
     assert checked.code == 1
     assert "the statement claims" in checked.out
+    again = f"i7000 check sim:I-7018 statement/is-there --statement {shlex.quote(str(file))}"
+    assert f"    repeat    {again}\n" in checked.out
+    assert run(*shlex.split(again)[1:]).code == 1
 
 
 @pytest.mark.parametrize(

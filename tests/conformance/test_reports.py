@@ -25,7 +25,8 @@ ANYTHING = st.recursive(
 NAMES = st.sampled_from(
     ("record", "id", "verdict", "seconds", "title", "sections", "errata", "reason", "text", "sent", "received", "right",
      "repeats", "expected", "check", "from", "wire", "target", "allowed", "seed", "module", "counts", "restored",
-     "left_changed", "silent", "complete", "given_model", "echo", "timeout_scale", "time")
+     "left_changed", "silent", "complete", "given_model", "statement", "echo", "timeout_scale",
+     "time")
 )  # fmt: skip
 KINDS = st.sampled_from(("wire", "check", "run-end"))
 RECORDS = st.builds(
@@ -101,6 +102,7 @@ def test_a_long_log_is_cut() -> None:
 def test_the_command_that_repeats_a_check_has_all_options() -> None:
     start = {
         **START, "target": "/dev/tty USB", "seed": 5, "timeout_scale": 2.5, "given_model": "M-7018", "echo": True,
+        "statement": "my module.json",
         "allowed": ["observe", "memory", "broadcast", "write", "comm", "calibration"],
         "module": {"address": 2, "baud_rate": 115200, "character_format": "E81", "name": "my name"},
     }  # fmt: skip
@@ -109,7 +111,7 @@ def test_the_command_that_repeats_a_check_has_all_options() -> None:
     assert command == (
         "i7000 check '/dev/tty USB' link/alive --address 2 --baud 115200 --character-format E81 --allow broadcast"
         " --allow comm --allow calibration --i-can-power-cycle --confirm 'my name' --seed 5 --timeout-scale 2.5"
-        " --model M-7018 --echo"
+        " --model M-7018 --statement 'my module.json' --echo"
     )
 
 

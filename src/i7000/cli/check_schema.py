@@ -70,6 +70,7 @@ _START = _object(
         "time": _TEXT | {"description": "The beginning, ISO 8601 in UTC."},
         "target": _TEXT,
         "given_model": _or_null(_TEXT, "The model, if --model says it."),
+        "statement": _or_null(_TEXT, "The file of --statement."),
         "echo": _FLAG | {"description": "Whether the adapter echoes what is sent."},
         "strict": _FLAG | {"description": "Whether WARN fails."},
         "seed": {"type": "integer"},

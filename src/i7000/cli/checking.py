@@ -125,6 +125,7 @@ class _Checking:
                 checksum=there.profile.checksum,
                 echo=self._asked.echo,
                 given_model=None if given is None else given.value,
+                statement=self._wishes.statement,
                 strict=self._wishes.strict,
             )
         )

@@ -1,8 +1,9 @@
 """A report for other programs: JUnit for CI servers, a test file for pytest."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from shlex import quote
+from typing import Any
 from xml.etree import ElementTree as ET
 
 from i7000.conformance.report import Checked, Report, texts
@@ -36,16 +37,23 @@ def reproduction(report: Report, check_id: str) -> str:
         words.append("--i-can-power-cycle")
     if "calibration" in harmful:
         words.append(f"--confirm {quote(str(module.get('name')))}")
-    seed, scale, model = (report.start.get(name) for name in ("seed", "timeout_scale", "given_model"))
-    if isinstance(seed, int) and seed:
-        words.append(f"--seed {seed}")
-    if isinstance(scale, int | float) and scale != 1:
-        words.append(f"--timeout-scale {scale:g}")
-    if isinstance(model, str):
-        words.append(f"--model {quote(model)}")
+    words += _repeated(report.start)
     if report.start.get("echo") is True:
         words.append("--echo")
     return " ".join(words)
+
+
+def _repeated(start: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the options of a run that say how it was carried out, and what the module is."""
+    seed, scale = start.get("seed"), start.get("timeout_scale")
+    if isinstance(seed, int) and seed:
+        yield f"--seed {seed}"
+    if isinstance(scale, int | float) and scale != 1:
+        yield f"--timeout-scale {scale:g}"
+    for option, name in (("--model", "given_model"), ("--statement", "statement")):
+        text = start.get(name)
+        if isinstance(text, str):
+            yield f"{option} {quote(text)}"
 
 
 # --- JUnit ------------------------------------------------------------------------------------------------------------

@@ -52,9 +52,14 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
     checksum: bool,
     echo: bool = False,
     given_model: str | None = None,
+    statement: str | None = None,
     strict: bool = False,
 ) -> Record:
-    """Return the first line; `given_model` is the model that the user says it is, instead of the module."""
+    """Return the first line.
+
+    Shape: `given_model` is the model that the user says it is, instead of the module; `statement` is the file with what
+        the module has.
+    """
     return {
         "record": "run-start",
         "schema_version": SCHEMA_VERSION,
@@ -64,6 +69,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "time": time,
         "target": target,
         "given_model": given_model,
+        "statement": statement,
         "echo": echo,
         "strict": strict,
         "seed": options.seed,
