@@ -86,7 +86,7 @@ def test_the_first_lost_sentinel_ends_the_run_and_the_fewest_frames_are_found(
     assert "is silent after" in told.err
     case = json.loads(file.read_text(encoding="utf-8"))
     assert json.loads(told.out) == case
-    assert (case["outcome"], case["reproduced"]) == ("silent", True)
+    assert (case["protocol"], case["outcome"], case["reproduced"]) == ("dcon", "silent", True)
     assert 0 < case["tries"] <= 200
     (wire,) = map(bytes.fromhex, case["frames"])
     assert b"#" in wire

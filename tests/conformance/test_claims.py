@@ -1,5 +1,6 @@
 """The statement of a module: what it holds, and that a module is held against it both ways."""
 
+import json
 from typing import Any
 
 import pytest
@@ -200,8 +201,12 @@ def test_without_a_statement_its_group_is_left_out() -> None:
 WHOLE = Claims("I-7018", "B4.5", "7018", Protocol.DCON, commands=("2.10",), readings=(("a", "b"),))
 
 
-def test_a_statement_is_read_as_it_was_written() -> None:
-    assert Claims.from_json(WHOLE.to_json()) == WHOLE
+@pytest.mark.parametrize(("protocol", "word"), [(Protocol.DCON, "dcon"), (Protocol.MODBUS_RTU, "rtu")])
+def test_a_statement_is_read_as_it_was_written(protocol: Protocol, word: str) -> None:
+    written = evolve(WHOLE, protocol=protocol)
+
+    assert json.loads(written.to_json())["protocol"] == word
+    assert Claims.from_json(written.to_json()) == written
 
 
 @pytest.mark.parametrize(
@@ -212,7 +217,9 @@ def test_a_statement_is_read_as_it_was_written() -> None:
         ("{}", "'commands' is missing"),
         (WHOLE.to_json().replace('"types"', '"kinds"'), "'kinds' is unknown"),
         (WHOLE.to_json().replace('"schema_version": 1', '"schema_version": 2'), "schema_version is 2, not 1"),
-        (WHOLE.to_json().replace('"dcon"', '"x"'), "protocol is 'x'"),
+        (WHOLE.to_json().replace('"dcon"', '"x"'), "protocol is 'x', not dcon or rtu"),
+        (WHOLE.to_json().replace('"dcon"', '"modbus_rtu"'), "protocol is 'modbus_rtu', not dcon or rtu"),
+        (WHOLE.to_json().replace('"dcon"', '["dcon"]'), "protocol is ['dcon'], not dcon or rtu"),
         (WHOLE.to_json().replace('"types": []', '"types": [1]'), "types is not a list of texts"),
         (WHOLE.to_json().replace('"b"', "1"), "readings is not an object of texts"),
         (WHOLE.to_json().replace('"I-7018"', "1"), "model is not a text"),

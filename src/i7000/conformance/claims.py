@@ -17,6 +17,7 @@ from i7000.conformance.subject import Subject
 from i7000.errors import DecodeError, InvalidValueError, shown
 from i7000.frozen import frozen
 from i7000.host.procedures import Procedure
+from i7000.host.procedures.values import PROTOCOLS
 from i7000.message import Query
 from i7000.modbus import Access, Area, Kind, Register, RegisterMap
 from i7000.models import Model
@@ -27,6 +28,7 @@ __all__ = ["SCHEMA_VERSION", "Claims", "asked", "has"]
 
 SCHEMA_VERSION = 1
 """The version of the JSON form of a statement."""
+_WORDS = {protocol: word for word, protocol in PROTOCOLS.items()}
 
 
 @frozen
@@ -70,7 +72,7 @@ class Claims:
             "model": self.model,
             "firmware": self.firmware,
             "name": self.name,
-            "protocol": self.protocol.name.lower(),
+            "protocol": _WORDS[self.protocol],
             "commands": list(self.commands),
             "functions": list(self.functions),
             "registers": list(self.registers),
@@ -97,9 +99,9 @@ class Claims:
             raise _damaged(f"{shown(odd[0])} is {'unknown' if odd[0] in document else 'missing'}")
         if document["schema_version"] != SCHEMA_VERSION:
             raise _damaged(f"schema_version is {shown(document['schema_version'])}, not {SCHEMA_VERSION}")
-        protocols = {protocol.name.lower(): protocol for protocol in Protocol}
-        if document["protocol"] not in protocols:
-            raise _damaged(f"protocol is {shown(document['protocol'])}")
+        protocol = document["protocol"]
+        if not isinstance(protocol, str) or protocol not in PROTOCOLS:
+            raise _damaged(f"protocol is {shown(protocol)}, not {' or '.join(PROTOCOLS)}")
         readings = document["readings"]
         if not isinstance(readings, dict) or not all(isinstance(value, str) for value in readings.values()):
             raise _damaged("readings is not an object of texts")
@@ -111,7 +113,7 @@ class Claims:
             document["model"],
             _text_or_null("firmware", document["firmware"]),
             _text_or_null("name", document["name"]),
-            protocols[document["protocol"]],
+            PROTOCOLS[protocol],
             _texts("commands", document["commands"]),
             _texts("functions", document["functions"]),
             _texts("registers", document["registers"]),

@@ -11,6 +11,7 @@ from attrs import evolve
 from i7000 import dcon, modbus
 from i7000.conformance.hazard import Hazard
 from i7000.frozen import frozen
+from i7000.host.procedures.values import PROTOCOLS
 from i7000.message import Message
 from i7000.models import Model
 from i7000.profile import Profile
@@ -93,11 +94,10 @@ def _rows(profile: Profile) -> frozenset[str]:
 
 _HAZARDS = {hazard.value: hazard for hazard in Hazard}
 _MODELS = {model.value: model for model in Model}
-_PROTOCOLS = {"dcon": Protocol.DCON, "modbus_rtu": Protocol.MODBUS_RTU, None: None}
 
 
 def _statement(row: Mapping[str, Any]) -> Statement:
-    models = row["models"]
+    models, protocol = row["models"], row["protocol"]
     return Statement(
         row["id"],
         row["title"],
@@ -105,7 +105,7 @@ def _statement(row: Mapping[str, Any]) -> Statement:
         tuple(row["sections"]),
         Level(row["level"]),
         frozenset(_HAZARDS[name] for name in row["hazards"]),
-        _PROTOCOLS[row["protocol"]],
+        None if protocol is None else PROTOCOLS[protocol],
         row["command"],
         row["function"],
         row["register"],
