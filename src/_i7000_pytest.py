@@ -132,6 +132,8 @@ class _Check(pytest.Item):
         rows = (
             (result.verdict.value, result.text),
             ("required", f"{statement.requirement} (manual {', '.join(statement.sections)})"),
+            ("wrote", result.wrote.hex(" ")),
+            ("answered", result.wrote and (result.answered.hex(" ") or "nothing")),
             ("sent", result.sent.hex(" ")),
             ("received", result.received.hex(" ") or "nothing"),
             ("expected", result.expected),

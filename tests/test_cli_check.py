@@ -99,6 +99,31 @@ dcon
     )
 
 
+def renamed(frame: bytes, answer: bytes | None) -> bytes | None:
+    """Acknowledge another name, and keep the one of before."""
+    return b"!017018\r" if frame == b"$01M\r" else answer
+
+
+@pytest.mark.usefixtures("here")
+def test_a_failure_of_a_write_shows_the_write_too(run: Run, played: Play) -> None:
+    played(FirmwarePort(renamed))
+    told = run(
+        "check", SIM, "dcon/2.33/set", "--allow", "write",
+        *(it for kind in ("json", "html", "junit") for it in ("--report", f"{kind}=run.{kind}")),
+    )  # fmt: skip
+
+    assert told.code == 1
+    lines = [line.split() for line in told.out.splitlines() if line.startswith("    ")]
+    assert [line[0] for line in lines[1:5]] == ["wrote", "answered", "sent", "received"]
+    assert [line[-1] for line in lines[2:5]] == ["!01.", "$01M.", "!017018."]
+    record = next(it for it in records(Path("run.json")) if it.get("id") == "dcon/2.33/set")
+    assert [bytes.fromhex(record[name]) for name in ("wrote", "answered", "sent", "received")] == [
+        b"~01OTest 7\r", b"!01\r", b"$01M\r", b"!017018\r",
+    ]  # fmt: skip
+    assert "<tr><th>wrote</th>" in Path("run.html").read_text("utf-8")
+    assert f"wrote: {record['wrote']}" in Path("run.junit").read_text("utf-8")
+
+
 def test_a_refused_selection_names_the_nearest_check(run: Run) -> None:
     told = run("check", SIM, "link/alife")
 

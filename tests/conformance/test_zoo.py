@@ -50,9 +50,10 @@ SILENCE = ("answer", "did not end", "not understood", "an empty frame")
 
 
 def unproved(found: Caught) -> list[str]:
-    """The failures that say something else of the module than silence, and do not show what it answered."""
-    failures = [it for it in found.results if it.verdict in (Verdict.FAIL, Verdict.WARN) and not it.received]
-    return [it.id for it in failures if not any(words in it.text for words in SILENCE)]
+    """The failures that say something of the module and do not show it: what it answered, or what was written."""
+    failures = [it for it in found.results if it.verdict in (Verdict.FAIL, Verdict.WARN)]
+    unheard = [it.id for it in failures if not it.received and not any(words in it.text for words in SILENCE)]
+    return [*unheard, *(it.id for it in failures if "reads back" in it.text and not it.wrote)]
 
 
 def passed(found: Caught) -> list[str]:

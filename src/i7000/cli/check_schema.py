@@ -110,6 +110,8 @@ _CHECK = _object(
     expected=_TEXT | {"description": "What was allowed, in words."},
     sent=_WIRE,
     received=_WIRE,
+    wrote=_WIRE | {"description": "The write before that, if settings may have been changed."},
+    answered=_WIRE | {"description": "The answer to the write."},
     right=_WIRE | {"description": "The only bytes that were allowed, if there are such."},
     repeats=_list(_VERDICT, description="The verdicts of the repetitions."),
     writes=_COUNT | {"description": "The frames that may have changed the EEPROM."},

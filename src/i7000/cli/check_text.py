@@ -104,6 +104,9 @@ def details(result: CheckResult, command: str) -> list[Line]:
     if result.verdict is Verdict.PASS:
         return []
     lines = [_row("", result.text)] if result.text else []
+    if result.wrote:
+        lines += _dump("wrote", result.wrote)
+        lines += _dump("answered", result.answered)
     if result.sent or result.received:
         lines += _dump("sent", result.sent)
         lines += _dump("received", result.received, result.right)

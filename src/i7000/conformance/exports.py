@@ -130,7 +130,7 @@ def _case(suite: ET.Element, check: Checked, report: Report) -> None:
 
 def _words(check: Checked, report: Report) -> Iterator[str]:
     yield f"required: {check['requirement']} (manual {', '.join(check.texts('sections'))})"
-    for name in ("sent", "received", "expected"):
+    for name in ("wrote", "answered", "sent", "received", "expected"):
         if check[name] is not None:
             yield f"{name}: {check[name]}"
     yield reproduction(report, check.id)

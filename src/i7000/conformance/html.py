@@ -247,9 +247,10 @@ def _facts(check: Checked) -> Iterator[tuple[str, str]]:
     for name, title in (("text", "why"), ("reason", "reason")):
         if check[name] is not None:
             yield title, escape(str(check[name]))
-    sent, received, right = (_bytes(check[name]) for name in ("sent", "received", "right"))
-    if sent is not None:
-        yield "sent", f"<code>{escape(_wire(sent))}</code>"
+    for name in ("wrote", "answered", "sent"):
+        if (wire := _bytes(check[name])) is not None:
+            yield name, f"<code>{escape(_wire(wire))}</code>"
+    received, right = (_bytes(check[name]) for name in ("received", "right"))
     if received is not None:
         yield "received", f"<code>{_marked(received, right)}</code>"
     if check["expected"] is not None:

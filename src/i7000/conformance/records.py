@@ -6,7 +6,7 @@ SHA-256 of all lines, itself without that digest included. Two runs that do the 
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from hashlib import sha256
 from typing import Any
 
@@ -120,11 +120,7 @@ def check_record(result: CheckResult, *, known: bool = False) -> Record:
     for name, value in (("text", result.text), ("expected", result.expected)):
         if value:
             record[name] = value
-    for name, wire in (("sent", result.sent), ("received", result.received)):
-        if result.text and (result.sent or result.received):
-            record[name] = wire.hex()
-    if result.right:
-        record["right"] = result.right.hex()
+    record |= {name: wire.hex() for name, wire in _evidence(result)}
     if result.repeats:
         record["repeats"] = [verdict.value for verdict in result.repeats]
     if result.writes:
@@ -132,6 +128,16 @@ def check_record(result: CheckResult, *, known: bool = False) -> Record:
     if known:
         record["known"] = True
     return record
+
+
+def _evidence(result: CheckResult) -> Iterator[tuple[str, bytes]]:
+    """Yield the bytes that decided, by their names."""
+    if result.text and (result.sent or result.received):
+        yield from (("sent", result.sent), ("received", result.received))
+    if result.wrote:
+        yield from (("wrote", result.wrote), ("answered", result.answered))
+    if result.right:
+        yield "right", result.right
 
 
 def end_record(run: Run, settled: Settled | None, *, exit_code: int, complete: bool) -> Record:

@@ -88,6 +88,10 @@ class CheckResult:
     """The frames of it that may have changed the EEPROM."""
     right: bytes = b""
     """The only bytes that were allowed, if there are such."""
+    wrote: bytes = b""
+    """The last write before what was sent, if it may have changed settings."""
+    answered: bytes = b""
+    """The answer to it."""
 
     @property
     def id(self) -> str:
@@ -388,6 +392,8 @@ def _result(statement: Statement, verdict: Verdict, reason: Reason, seconds: flo
         reason.expected,
         writes=writes,
         right=reason.right,
+        wrote=reason.wrote,
+        answered=reason.answered,
     )
 
 

@@ -84,6 +84,8 @@ class Subject:
     """What a check that passes has to say."""
     exchanges: list[tuple[bytes, bytes]] = field(factory=list)
     """What was sent so far, each with what was heard then."""
+    last_write: tuple[bytes, bytes] = (b"", b"")
+    """The last exchange that may have changed settings; empty before the first."""
 
     @property
     def protocol(self) -> Protocol:
@@ -176,19 +178,21 @@ class Subject:
         parts = tuple(piece if isinstance(piece, tuple) else (0.0, piece) for piece in pieces)
         before = self.guard
         try:
-            self._admit_all(parts)
+            writes = self._admit_all(parts)
         except GuardError:
             self.guard = before
             if not all(hazards_of(wire, self.line) <= self.guard.allowed | {Hazard.OBSERVE} for _, wire in parts):
                 raise
             yield from self.end_line()
-            self._admit_all(parts)
+            writes = self._admit_all(parts)
         ends = b"\r" if self.protocol is Protocol.DCON else b""
         quiet = _QUIET[self.protocol] * self.timeout_scale
         delay = self.twin.state.response_delay
         heard: BytesHeard = yield SendBytes(parts, seconds * self.timeout_scale + delay, quiet, ends)
         self.now = heard.now
         self.exchanges.append((b"".join(wire for _, wire in parts), heard.wire))
+        if writes:
+            self.last_write = self.exchanges[-1]
         return heard
 
     def exchange(self, query: Query[Any] | None = None) -> tuple[bytes, bytes]:
@@ -209,18 +213,21 @@ class Subject:
             self.guard = self.guard.sending(LINE_END, self.line)
             self.now = (yield SendBytes(((0.0, LINE_END),), SILENCE)).now
 
-    def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> None:
-        for _, wire in parts:
-            self._admit(wire)
+    def _admit_all(self, parts: Iterable[tuple[float, bytes]]) -> bool:
+        admitted = [self._admit(wire) for _, wire in parts]
+        return any(admitted)
 
-    def _admit(self, wire: bytes) -> None:
+    def _admit(self, wire: bytes) -> bool:
         """Pass bytes to the guard, and count those with which a module would change its EEPROM.
+
+        Shape: returns whether they may change settings.
 
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """
         self.guard, hazards = self.guard.judged(wire, self.line)
         if hazards & STORED:
             self._count(self.twin.hear(wire, self.now)[0])
+        return bool(hazards & STORED)
 
     def _count(self, after: Twin) -> None:
         if after.state.eeprom != self.twin.state.eeprom:
@@ -353,7 +360,10 @@ class Subject:
 
     def wrong(self, text: str, sent: bytes, received: bytes, expected: str, right: bytes = b"") -> Difference:
         """Return the error of an answer that is not allowed; `right` are the only bytes that are, if there are such."""
-        return Difference(text, sent=sent, received=received, expected=expected, right=right)
+        wrote, answered = (b"", b"") if self.last_write[0] in sent else self.last_write
+        return Difference(
+            text, sent=sent, received=received, expected=expected, right=right, wrote=wrote, answered=answered
+        )
 
     # --- the frames of refusal ----------------------------------------------------------------------------------------
 

@@ -47,7 +47,8 @@ class SkipReason(Enum):
 class Reason(Exception):  # noqa: N818 - most are no errors
     """What ends a check before its end: the verdict, and why.
 
-    Shape: `sent` and `received` are the bytes that decided; `expected` says what was allowed, and `right` are the only
+    Shape: `sent` and `received` are the bytes that decided; `wrote` and `answered` are those of the write before them,
+        if the settings were changed before. `expected` says what was allowed, and `right` are the only
         bytes that were, if there are such; `erratum` is the reading of the manual that the expectation rests on.
     """
 
@@ -61,15 +62,31 @@ class Reason(Exception):  # noqa: N818 - most are no errors
         received: bytes = b"",
         expected: str = "",
         right: bytes = b"",
+        wrote: bytes = b"",
+        answered: bytes = b"",
         erratum: str | None = None,
     ) -> None:
         super().__init__(text)
         self.text = text
         self.sent, self.received, self.expected, self.right, self.erratum = sent, received, expected, right, erratum
+        self.wrote, self.answered = wrote, answered
 
 
 class Difference(Reason):
     """The module does something else than it should; the level of the check makes it a `FAIL` or an `INFO`."""
+
+    def told_as(self, text: str) -> "Difference":
+        """Return the same evidence with another text."""
+        return Difference(
+            text,
+            sent=self.sent,
+            received=self.received,
+            expected=self.expected,
+            right=self.right,
+            wrote=self.wrote,
+            answered=self.answered,
+            erratum=self.erratum,
+        )
 
 
 class Strange(Reason):

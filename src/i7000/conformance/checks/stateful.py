@@ -43,12 +43,7 @@ def _reads(module: Subject) -> Procedure[None]:
             yield from module.expect(query)
         except Difference as difference:
             before = f", after {sent[-2]}" if len(sent) > 1 else ""
-            raise Difference(
-                f"{difference.text}: {query}{before}",
-                sent=difference.sent,
-                received=difference.received,
-                expected=difference.expected,
-            ) from None
+            raise difference.told_as(f"{difference.text}: {query}{before}") from None
 
 
 def _plain_reads(module: Subject) -> list[Query[Any]]:
@@ -120,9 +115,7 @@ def _settings(module: Subject) -> Procedure[None]:
         if again is not None:
             changes, failed = fewer, again
     words = ", ".join(str(change.do) for change in changes)
-    raise Difference(
-        f"{failed.text}, after {words}", sent=failed.sent, received=failed.received, expected=failed.expected
-    )
+    raise failed.told_as(f"{failed.text}, after {words}")
 
 
 def _played(module: Subject, changes: list[Change]) -> Procedure[Difference | None]:

@@ -185,9 +185,7 @@ def _of_type(module: Subject, code: TypeCode) -> Procedure[None]:
     try:
         yield from module.expect(dcon.ReadAnalogInput(module.address, 0))
     except Difference as found:
-        raise Difference(
-            f"type {code:02X}: {found.text}", sent=found.sent, received=found.received, expected=found.expected
-        ) from None
+        raise found.told_as(f"type {code:02X}: {found.text}") from None
 
 
 # --- disabled channels ------------------------------------------------------------------------------------------------
