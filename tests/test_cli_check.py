@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 
 from i7000 import Model, spec
 from i7000.cli.check_schema import SCHEMA
+from i7000.cli.check_screen import Screen
 from i7000.cli.check_text import details
 from i7000.conformance.checks import STEPS
 from i7000.conformance.run import CheckResult
@@ -314,6 +315,82 @@ def test_ctrl_c_restores_the_module(run: Run, here: Path, played: Play, monkeypa
     assert told.code == 130
     assert (end["complete"], end["restored"], port.kept_name) == (False, ["name"], "7018")
     assert "INCOMPLETE: stopped before the end" in told.err
+
+
+def pressing(times: int) -> Callable[[bytes], bytes]:
+    """Press Ctrl-C so often after the name was changed, once for each frame."""
+    left = [0]
+
+    def press(wire: bytes) -> bytes:
+        if wire.startswith(b"~01OMINE"):
+            left[0] = times
+        elif left[0]:
+            left[0] -= 1
+            os.kill(os.getpid(), signal.SIGINT)
+        return wire
+
+    return press
+
+
+def pressed(module: Subject) -> Procedure[None]:
+    """Change the name, and press Ctrl-C."""
+    yield from module.send(b"~01OMINE\r")
+    os.kill(os.getpid(), signal.SIGINT)
+    yield from module.wait(1.0)
+
+
+@pytest.mark.parametrize(
+    ("times", "code", "name"),
+    [(0, 130, "7018"), (1, 130, "7018"), (2, 6, "MINE"), (9, 6, "MINE")],
+)
+def test_more_ctrl_c_lose_neither_the_summary_nor_the_exit_code(  # noqa: PLR0913, PLR0917 - fixtures
+    run: Run, here: Path, played: Play, monkeypatch: pytest.MonkeyPatch, times: int, code: int, name: str
+) -> None:
+    port = FirmwarePort(edit=pressing(times))
+    played(port)
+    steps(monkeypatch, "stateful/settings", pressed)
+    shown = Screen.summary
+
+    def summary(*arguments: Any) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        shown(*arguments)
+
+    monkeypatch.setattr(Screen, "summary", summary)
+    told = run(
+        "check", SIM, "link/alive", "stateful/settings", "--allow", "write", "--report", "json=run.jsonl",
+        "--snapshot", "before.json",
+    )  # fmt: skip
+    end = records(here / "run.jsonl")[-1]
+
+    assert (told.code, port.kept_name) == (code, name)
+    assert (end["complete"], end["exit_code"]) == (False, code)
+    assert "1 PASS\n" in told.out
+    assert "INCOMPLETE: stopped before the end" in told.err
+    assert ("press Ctrl-C once more to leave it as it is" in told.err) == bool(times)
+    assert ("restore it with i7000 restore sim:I-7018 before.json" in told.err) == (code == 6)
+
+
+@pytest.mark.parametrize(("times", "code"), [(1, 0), (2, 130)])
+def test_ctrl_c_while_a_module_is_compared_at_the_end_does_not_lose_the_summary(
+    run: Run, played: Play, monkeypatch: pytest.MonkeyPatch, times: int, code: int
+) -> None:
+    left = [0]
+
+    def press(wire: bytes) -> bytes:
+        if left[0]:
+            left[0] -= 1
+            os.kill(os.getpid(), signal.SIGINT)
+        return wire
+
+    def last(module: Subject) -> Procedure[None]:
+        yield from module.expect(module.sentinel)
+        left[0] = times
+
+    played(FirmwarePort(edit=press))
+    steps(monkeypatch, "link/alive", last)
+    told = run("check", SIM, "link/alive")
+
+    assert (told.code, "1 PASS\n" in told.out) == (code, True)
 
 
 @pytest.mark.parametrize("allow", [(), ("--allow", "write")])

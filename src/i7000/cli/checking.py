@@ -92,7 +92,9 @@ class _Checking:
             self._keeper.keep(before, there)
             self._begin(before, there, one, planned)
             estimated, limit = partial(self._estimated, one, eeprom), options.seconds
-            note_estimate(self._printer, self._asked.target, estimated, limit)
+            with open_line.ending.breakable():
+                note_estimate(self._printer, self._asked.target, estimated, limit)
+            open_line.ending.hold()
             return self._carry_out(open_line, one, before)
 
     def _estimated(self, one: Run, eeprom: Eeprom) -> float:
@@ -145,10 +147,11 @@ class _Checking:
             failure = error
         self._stream.check = None
         settled = self._settle(open_line, one, before)
+        ended = ended or self._keeper.ended(open_line.ending, settled)
         left = self._keeper.left(settled, may_have_changed=one.may_have_changed)
         if failure is not None:
             return self._failed(one, settled, left, failure)
-        code = left or ended or self._code(one, settled)
+        code = (left if left == LEFT_CHANGED else ended or left) or self._code(one, settled)
         self._stream.finish(end_record(one, settled, exit_code=code, complete=not ended))
         self._screen.summary(one, settled)
         self._keeper.report(settled, left)

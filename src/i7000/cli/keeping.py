@@ -5,8 +5,10 @@ is said, and so is what to do about it.
 """
 
 import shlex
+from contextlib import suppress
 
 from i7000.cli.asked import LEFT_CHANGED
+from i7000.cli.port import BreakingEnding
 from i7000.cli.reached import OpenLine, Reached
 from i7000.cli.snapshot_file import write_new
 from i7000.cli.text import Printer
@@ -53,13 +55,25 @@ class Keeper:
     def settle(
         self, open_line: OpenLine, before: Snapshot, place: Twin, line: LineSettings, home: Twin
     ) -> Settled | None:
-        """Restore the module, see `i7000.conformance.settle.settle`; None if that was impossible."""
+        """Restore the module, see `i7000.conformance.settle.settle`; None if that was impossible.
+
+        Special: the first signal meanwhile is answered with a warning, the second one breaks it off.
+        """
         writing = bool(self._allowed & STORED)
         try:
-            return open_line.finish(settle(before, place, line, home=home, writing=writing))
+            with open_line.ending.insistent(self._warn):
+                return open_line.finish(settle(before, place, line, home=home, writing=writing))
         except (I7000Error, KeyboardInterrupt) as error:
             self._printer.error(f"the module could not be restored: {str(error) or 'stopped'}")
             return None
+
+    def _warn(self) -> None:
+        with suppress(RuntimeError):  # the signal came while something else was printed
+            self._printer.note("the module is being restored: press Ctrl-C once more to leave it as it is")
+
+    def ended(self, ending: BreakingEnding, settled: Settled | None) -> int:
+        """Return the exit code if a signal broke off the restoration; 0 if none did."""
+        return 128 + ending.number if settled is None and ending.number else 0
 
     def left(self, settled: Settled | None, *, may_have_changed: bool) -> int:
         """Return the exit code of how the module was left; 0 if it is as before."""

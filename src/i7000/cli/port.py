@@ -6,7 +6,7 @@ Laws: what opening a port needs is imported when one is opened.
 """
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -155,19 +155,40 @@ class Ending:
 class BreakingEnding(Ending):
     """An ending that breaks off what waits, and never what writes.
 
-    Laws: `KeyboardInterrupt` is raised within `breakable` only, or for a second signal.
+    Laws: `KeyboardInterrupt` is raised within `breakable` only, or for a second signal before `hold`.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self._breakable = False
+        self._breakable = self._held = False
+        self._warn: Callable[[], None] | None = None
+        """What answers the next signal instead of breaking off."""
 
     def ask(self, number: int, frame: FrameType | None) -> None:
         """Remember a signal, and break off what may be; this handles signals."""
         again = self.number != 0
         super().ask(number, frame)
-        if self._breakable or again:
+        warn, self._warn = self._warn, None
+        if warn:
+            warn()
+        elif self._breakable or (again and not self._held):
+            self._breakable = False  # what ends because of this signal is not broken off by the next one
             raise KeyboardInterrupt
+
+    def hold(self) -> None:
+        """Make signals break off only what is `breakable` or `insistent` from now on."""
+        self._held = True
+
+    @contextmanager
+    def insistent(self, warn: Callable[[], None]) -> Iterator[None]:
+        """Call `warn` at the next signal within the block, and raise `KeyboardInterrupt` at the one after it."""
+        self._warn = warn
+        self._breakable = True
+        try:
+            yield
+        finally:
+            self._breakable = False
+            self._warn = None
 
     @contextmanager
     def breakable(self) -> Iterator[None]:

@@ -110,6 +110,7 @@ class _Replaying:
         _check_same(self._report, before, there)
         self._keeper.check_name(before, self._wishes.confirm)
         self._keeper.keep(before, there)
+        open_line.ending.hold()
         return self._carry_out(open_line, before, there)
 
     def _carry_out(self, open_line: OpenLine, before: Snapshot, there: Reached) -> int:
@@ -130,12 +131,13 @@ class _Replaying:
             failure = error
         self._port.budget = None
         settled = self._keeper.settle(open_line, before, home, line, home)
+        ended = ended or self._keeper.ended(open_line.ending, settled)
         left = self._keeper.left(settled, may_have_changed=bool(self._port.writes))
         self._summary(settled)
         self._keeper.report(settled, left)
         if failure is not None:
             return self._failed(failure, left)
-        return left or ended or self._code()
+        return (left if left == LEFT_CHANGED else ended or left) or self._code()
 
     def _failed(self, failure: BaseException, left: int) -> int:
         """Return the exit code of a replay that a guard, this program or its output broke off."""
