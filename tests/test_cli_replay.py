@@ -12,7 +12,7 @@ from i7000.host.procedures import Procedure, Snapshot, Wait
 from i7000.link import LinkError
 from tests.firmwares import FirmwarePort, Play, played
 from tests.terminal import Run, plain, run
-from tests.test_cli_check import LIES, SIM, lying
+from tests.test_cli_check import LIES, SIM, lying, records
 
 __all__ = ["plain", "played", "run"]
 
@@ -272,6 +272,63 @@ def test_a_report_of_modbus_is_sent_again(run: Run, tmp_path: Path) -> None:
     told = run("replay", path)
 
     assert told.code == 0, told.out
+
+
+COMM = ("--allow", "comm", "--allow", "broadcast", "--i-can-power-cycle")
+
+
+def recorded(run: Run, folder: Path, target: str, *checks: str) -> str:
+    """A report of checks that change the line settings, or switch the power."""
+    path = folder / "run.jsonl"
+    told = run("check", target, *checks, *COMM, "--report", f"json={path}", "--snapshot", str(folder / "a.json"))
+    assert told.code == 0, told.out
+    records(path)
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("target", "checks", "kinds"),
+    [
+        ("sim:I-7018", ("init/switch-line", "init/new-address"), {"line", "power"}),
+        ("sim:I-7018,baud=19200", ("init/switch-line",), {"line", "power"}),
+        ("sim:M-7019R,protocol=dcon", ("init/soft-init",), {"line"}),
+        ("sim:M-7017,protocol=rtu", ("rtu/46/06/set", "init/switch-protocol"), {"power"}),
+        ("sim:I-7018", ("dcon/2.39/timeout",), set()),
+    ],
+)
+def test_line_settings_and_the_power_change_as_in_the_report(
+    run: Run, tmp_path: Path, target: str, checks: tuple[str, ...], kinds: set[str]
+) -> None:
+    path = recorded(run, tmp_path, target, *checks)
+    told = run("replay", path, *COMM, "--snapshot", str(tmp_path / "b.json"))
+
+    assert told.code == 0, told.out
+    assert kinds <= {it["record"] for it in records(Path(path))}
+    assert int(told.out.split()[0]) > 3
+
+
+def test_a_report_whose_power_cannot_be_switched_again_is_refused(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = recorded(run, tmp_path, SIM, "init/switch-line")
+    monkeypatch.setattr("i7000.link.guarded._OPTIONAL", {"now", "sleep"})
+    told = run("replay", path, *COMM, "--snapshot", str(tmp_path / "b.json"))
+
+    assert told.code == 2
+    assert f"{path}: init/switch-line, 0." in told.err
+    assert "the power was switched off and on then, and this port cannot do that" in told.err
+
+
+@pytest.mark.parametrize("changed", [("19200", "19201"), ('"N81"', '"N83"'), ("19200", '"19200"')])
+def test_line_settings_that_no_module_has_are_damage(run: Run, tmp_path: Path, changed: tuple[str, str]) -> None:
+    path = Path(recorded(run, tmp_path, "sim:M-7019R,protocol=dcon", "init/soft-init"))
+    lines = [it.replace(*changed) if '"record": "line"' in it else it for it in path.read_text().splitlines()]
+    number = 1 + next(at for at, it in enumerate(lines) if it != path.read_text().splitlines()[at])
+    path.write_text("\n".join(lines) + "\n")
+    told = run("replay", str(path), *COMM)
+
+    assert told.code == 2
+    assert f"{path}: line {number}: no line settings of a module: give --edited" in told.err
 
 
 def test_a_report_without_frames_decides_nothing(run: Run, report: str) -> None:

@@ -10,7 +10,7 @@ from i7000 import InvalidValueError, Model
 from i7000.device import factory, power_on
 from i7000.errors import I7000Error
 from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes
-from i7000.link import AsyncLine, Line, LinkError, Port, VirtualPort
+from i7000.link import AsyncLine, Line, LinkError, Observed, Port, PowerCycled, VirtualPort
 from i7000.link.guarded import GuardedPort
 from i7000.simulator import Faults
 
@@ -98,6 +98,15 @@ def test_the_power_is_switched_with_the_init_switch(drive: Driven, *, init_switc
 
     assert drive(GuardedPort(port), power(init_switch=init_switch)) == (True, told)
     assert port.modules[0].ram.init_mode is init_switch
+
+
+@pytest.mark.parametrize("can", [True, False])
+def test_an_observer_hears_of_the_power_if_it_was_switched(*, can: bool) -> None:
+    seen: list[Observed] = []
+    port: Any = module() if can else Plain(module())
+    Line(port, observe=seen.append).run(power(init_switch=True))
+
+    assert [it for it in seen if isinstance(it, PowerCycled)] == [PowerCycled(0.0, init_switch=True)] * can
 
 
 class Plain:

@@ -47,4 +47,4 @@ def check_observer(observed: link.Observed) -> None:
         case link.Asked():
             assert_type(observed.command, host.Query[host.Response])
         case _:
-            assert_type(observed, link.Abandoned | link.Tuned)
+            assert_type(observed, link.Abandoned | link.Tuned | link.PowerCycled)

@@ -52,16 +52,24 @@ class Asked:
 
 
 def asked_of(  # noqa: PLR0913 - each of them is an option
-    target: str, line: LineOptions, asking: AskOptions, one: OneModule, module: Module, *, detected: bool = False
+    target: str,
+    line: LineOptions,
+    asking: AskOptions,
+    one: OneModule,
+    module: Module,
+    *,
+    otherwise: LineSettings = LineSettings(),  # noqa: B008 - frozen
+    detected: bool = False,
 ) -> Asked:
     """Return the module that options describe.
 
-    Shape: with `detected`, line settings that are not given are looked for, at a target that has some.
+    Shape: `otherwise` are the line settings unless they are given. With `detected`, line settings that are not given
+        are looked for, at a target that has some.
     Errors: `UsageError`.
     """
     first, *more = wanted(() if one.address is None else (one.address,), module, one.protocol)
     if more and one.address is None:
         raise UsageError("--model describes several modules: give the --address of one")
-    settings = line.settings()
+    settings = line.settings(otherwise)
     others = line.others() if detected and not target.startswith(_WITHOUT_LINE) else ()
     return Asked(target, settings, asking.policy(), asking.echo, first, others)

@@ -42,12 +42,17 @@ def _or_null(schema: _Schema, description: str) -> _Schema:
     return {"anyOf": [schema, {"type": "null"}], "description": description}
 
 
+_BELONGS = _or_null(_ID, "The check that it belongs to; null: none.")
+_SINCE = _SECONDS | {"description": "Since the first byte."}
+_LINE_SETTINGS: _Schema = {
+    "baud_rate": _COUNT | {"description": "Bits per second."},
+    "character_format": {"enum": [form.name for form in CharacterFormat]},
+}
 _MODULE = _object(
     {
         "schema_version": _COUNT | {"description": "Of the settings: those of i7000 backup."},
         "address": _COUNT | {"maximum": 255},
-        "baud_rate": _COUNT | {"description": "Bits per second."},
-        "character_format": {"enum": [form.name for form in CharacterFormat]},
+        **_LINE_SETTINGS,
         "checksum": _FLAG | {"description": "Of DCON."},
         "model": {"enum": [model.value for model in Model]},
         "firmware": _or_null(_TEXT, "Null: unknown."),
@@ -86,10 +91,26 @@ _START = _object(
 _WIRED = _object(
     {
         "record": {"const": "wire"},
-        "check": _or_null(_ID, "The check that it belongs to; null: none."),
-        "seconds": _SECONDS | {"description": "Since the first byte."},
+        "check": _BELONGS,
+        "seconds": _SINCE,
         "from": {"enum": ["host", "module"]},
         "wire": _WIRE,
+    }
+)
+_LINE = _object(
+    {
+        "record": {"const": "line", "description": "The host takes other line settings."},
+        "check": _BELONGS,
+        "seconds": _SINCE,
+        **_LINE_SETTINGS,
+    }
+)
+_POWER = _object(
+    {
+        "record": {"const": "power", "description": "The power of the module is switched off and on."},
+        "check": _BELONGS,
+        "seconds": _SINCE,
+        "init_switch": _FLAG | {"description": "Whether the INIT switch is set then."},
     }
 )
 _CHECK = _object(
@@ -136,7 +157,7 @@ SCHEMA = json.dumps(
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A line of a report of i7000 check",
         "description": "The first line is a run-start. The last is a run-end; without it, the report is incomplete.",
-        "oneOf": [_START, _WIRED, _CHECK, _END],
+        "oneOf": [_START, _WIRED, _LINE, _POWER, _CHECK, _END],
     },
     indent=2,
 )

@@ -7,9 +7,9 @@ from contextlib import ExitStack
 from typing import IO, Any
 
 from i7000.cli.report_files import MADE, write_report
-from i7000.conformance.records import Digest, wire_record
+from i7000.conformance.records import Digest, line_record, power_record, wire_record
 from i7000.conformance.report import Report
-from i7000.link import Observed, Received, Written
+from i7000.link import Observed, PowerCycled, Received, Tuned, Written
 
 __all__ = ["ReportStream"]
 
@@ -52,11 +52,17 @@ class ReportStream:
 
     def observe(self, observed: Observed) -> None:
         """Write what is on the line, after the first line."""
-        if self.start is not None and isinstance(observed, Received | Written):
-            if self._began is None:
-                self._began = observed.at
-            sent, seconds = isinstance(observed, Written), observed.at - self._began
-            self.record(wire_record(self.check, seconds, observed.data, sent=sent))
+        if self.start is None or not isinstance(observed, Received | Written | Tuned | PowerCycled):
+            return
+        if self._began is None:
+            self._began = observed.at
+        check, seconds = self.check, observed.at - self._began
+        if isinstance(observed, Tuned):
+            self.record(line_record(check, seconds, observed.line))
+        elif isinstance(observed, PowerCycled):
+            self.record(power_record(check, seconds, init_switch=observed.init_switch))
+        else:
+            self.record(wire_record(check, seconds, observed.data, sent=isinstance(observed, Written)))
 
     def record(self, record: dict[str, Any]) -> None:
         """Write a line."""

@@ -63,7 +63,8 @@ def run(wishes: Wishes, line: LineOptions, asking: AskOptions) -> int:
     given = report.start.get("given_model")
     module = Module(model=(given,)) if isinstance(given, str) else UNKNOWN
     target = wishes.target or str(report.start.get("target"))
-    asked = asked_of(target, line, asking, OneModule(str(report.module.get("address"))), module)
+    one_module = OneModule(str(report.module.get("address")))
+    asked = asked_of(target, line, asking, one_module, module, otherwise=report.line)
     one = _Replaying(asked, wishes, report, allowed, printer)
     return at_port(asked, one.examine, guard=one.guarded)
 
@@ -141,8 +142,8 @@ class _Replaying:
 
     def _failed(self, failure: BaseException, left: int) -> int:
         """Return the exit code of a replay that a guard, this program or its output broke off."""
-        if isinstance(failure, GuardError | BudgetError):
-            self._printer.error(str(failure))
+        if isinstance(failure, GuardError | BudgetError | ReportError):
+            self._printer.error(f"{self._wishes.file}: {failure}")
             return left or UsageError.code
         if not left and isinstance(failure, OSError | SystemExit):
             raise failure

@@ -24,6 +24,8 @@ __all__ = [
     "as_line",
     "check_record",
     "end_record",
+    "line_record",
+    "power_record",
     "start_record",
     "wire_record",
 ]
@@ -81,8 +83,7 @@ def start_record(  # noqa: PLR0913 - each of them is a fact
         "checks": checks,
         "module": {
             "address": address,
-            "baud_rate": BaudRate(line.baud_rate).bits_per_second,
-            "character_format": line.character_format.name,
+            **_line_settings(line),
             "checksum": checksum,
             **json.loads(snapshot.to_json()),
         },
@@ -97,6 +98,23 @@ def wire_record(check: str | None, seconds: float, data: bytes, *, sent: bool) -
         "seconds": round(seconds, 6),
         "from": "host" if sent else "module",
         "wire": data.hex(),
+    }
+
+
+def line_record(check: str | None, seconds: float, line: LineSettings) -> Record:
+    """Return the line that the host took other line settings."""
+    return {"record": "line", "check": check, "seconds": round(seconds, 6), **_line_settings(line)}
+
+
+def power_record(check: str | None, seconds: float, *, init_switch: bool) -> Record:
+    """Return the line that the power of the module was switched off and on."""
+    return {"record": "power", "check": check, "seconds": round(seconds, 6), "init_switch": init_switch}
+
+
+def _line_settings(line: LineSettings) -> Record:
+    return {
+        "baud_rate": BaudRate(line.baud_rate).bits_per_second,
+        "character_format": line.character_format.name,
     }
 
 

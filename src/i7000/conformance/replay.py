@@ -1,7 +1,7 @@
 """A run once more: the frames of a report sent again, and their answers compared with those of the report.
 
-Laws: what was sent without an answer between has the pauses of the report. What a module measures may differ, and
-nothing else: the request decides whether that is what was asked for.
+Laws: all frames have the pauses of the report, because some answers depend on the time, such as those after soft INIT.
+What a module measures may differ, and nothing else: the request decides whether that is what was asked for.
 """
 
 import re
@@ -9,15 +9,15 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from i7000 import dcon, modbus
-from i7000.conformance.report import Frame, Report
+from i7000.conformance.report import Change, Checked, Frame, Report, ReportError
 from i7000.errors import DecodeError
 from i7000.frozen import frozen
-from i7000.host.procedures import BytesHeard, Procedure, SendBytes, Tell
+from i7000.host.procedures import BytesHeard, PowerCycle, Procedure, SendBytes, Tell, Tune
 from i7000.host.procedures.values import PROTOCOLS
 from i7000.modbus import Area, RegisterMap
 from i7000.models import Model
 from i7000.profile import Profile
-from i7000.settings import Protocol
+from i7000.settings import BaudRate, LineSettings, Protocol
 
 __all__ = ["Readings", "Replayed", "replay"]
 
@@ -25,7 +25,7 @@ _LISTEN = 0.5
 _QUIET = 0.05
 _BITS = 10
 """The bits of a character on the line, at least."""
-_LONGEST_PAUSE = 5.0
+_LONGEST_PAUSE = 60.0
 _READS = re.compile(rb"#[0-9A-F]{2}[0-9A-F]?|\$[0-9A-F]{2}[A34]")
 """The DCON commands that read what is measured: ``#AA``, ``#AAN``, ``$AAA``, ``$AA4`` and ``$AA3``."""
 _SYNCHRONIZED = b"4"
@@ -56,16 +56,27 @@ class Replayed:
 
 
 def replay(report: Report, *, timeout_scale: float = 1.0) -> Procedure[tuple[Replayed, ...]]:
-    """Make the procedure that sends the frames of a report again, check by check; it tells each `Replayed`."""
+    """Make the procedure that sends the frames of a report again, check by check; it tells each `Replayed`.
+
+    Special: where the line settings of the host or the power changed, they change again.
+    Errors: `ReportError` if the port cannot switch the power.
+    """
     dcon_ends = b"" if _protocol(report) is Protocol.MODBUS_RTU else b"\r"
-    baud = report.module.get("baud_rate")
-    character = _BITS / baud if isinstance(baud, int) and baud > 0 else 0.0
-    readings = Readings.of(report)
+    line, readings = report.line, Readings.of(report)
+    listen, quiet = _LISTEN * timeout_scale, _QUIET * timeout_scale
     results = []
+    free: float | None = None
     for check in report.checks:
-        for sent, recorded in _exchanges(check.frames):
-            step = SendBytes(_pieces(sent, character), _LISTEN * timeout_scale, _QUIET * timeout_scale, dcon_ends)
-            heard: BytesHeard = yield step
+        for change, sent, answer in _exchanges(check.traffic):
+            if change is not None:
+                line = yield from _changed(check, change, line)
+                free = change.seconds
+            if not sent:
+                continue
+            pause = 0.0 if free is None else sent[0].seconds - free
+            heard: BytesHeard = yield SendBytes(_pieces(sent, line, pause), listen, quiet, dcon_ends)
+            free = sent[-1].seconds + listen if answer is None else answer.seconds + quiet
+            recorded = b"" if answer is None else answer.wire
             wires = tuple(frame.wire for frame in sent)
             same = recorded == heard.wire or readings.are_alike(b"".join(wires), recorded, heard.wire)
             result = Replayed(check.id, wires, recorded, heard.wire, same)
@@ -78,28 +89,47 @@ def _protocol(report: Report) -> Protocol:
     return PROTOCOLS.get(str(report.module.get("protocol")), Protocol.DCON)
 
 
-def _pieces(sent: Sequence[Frame], character: float) -> tuple[tuple[float, bytes], ...]:
-    """Return frames, each with the pause before it, which is over when the last one is sent."""
-    pieces = [(0.0, sent[0].wire)]
+def _changed(check: Checked, change: Change, line: LineSettings) -> Procedure[LineSettings]:
+    """Change what a run changed, and return the line settings from then on."""
+    if change.line is not None:
+        yield Tune(change.line)
+        return change.line
+    if not (yield PowerCycle(change.init_switch)):
+        what = f"{check.id}, {change.seconds:.3f} s after the start"
+        raise ReportError(f"{what}: the power was switched off and on then, and this port cannot do that")
+    return line
+
+
+def _pieces(sent: Sequence[Frame], line: LineSettings, pause: float) -> tuple[tuple[float, bytes], ...]:
+    """Return frames, each with the pause before it, which is over when the last one is sent; `pause` is the first."""
+    character = _BITS / BaudRate(line.baud_rate).bits_per_second
+    pieces = [(_bounded(pause), sent[0].wire)]
     for before, frame in pairwise(sent):
         pause = frame.seconds - before.seconds - len(before.wire) * character
-        pieces.append((min(max(0.0, pause), _LONGEST_PAUSE), frame.wire))
+        pieces.append((_bounded(pause), frame.wire))
     return tuple(pieces)
 
 
-def _exchanges(frames: Sequence[Frame]) -> list[tuple[tuple[Frame, ...], bytes]]:
-    """Return what was sent until something was heard, with what was heard."""
-    found: list[tuple[tuple[Frame, ...], bytes]] = []
+def _bounded(pause: float) -> float:
+    return min(max(0.0, pause), _LONGEST_PAUSE)
+
+
+def _exchanges(traffic: Sequence[Frame | Change]) -> list[tuple[Change | None, tuple[Frame, ...], Frame | None]]:
+    """Return what was sent until something was heard or changed, with what was heard, and the change before it."""
+    found: list[tuple[Change | None, tuple[Frame, ...], Frame | None]] = []
     sent: list[Frame] = []
-    for frame in frames:
-        if frame.sent:
-            sent.append(frame)
+    change: Change | None = None
+    for it in (*traffic, None):
+        if isinstance(it, Frame) and it.sent:
+            sent.append(it)
         elif sent:
-            found.append((tuple(sent), frame.wire))
-            sent = []
-    if sent:
-        found.append((tuple(sent), b""))
-    return found
+            found.append((change, tuple(sent), it if isinstance(it, Frame) else None))
+            sent, change = [], None
+        if isinstance(it, Change):
+            if change is not None:
+                found.append((change, (), None))
+            change = it
+    return found if change is None else [*found, (change, (), None)]
 
 
 @frozen

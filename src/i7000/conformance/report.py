@@ -20,10 +20,10 @@ from i7000.frozen import frozen
 from i7000.host.procedures.values import PROTOCOLS
 from i7000.models import Model
 from i7000.profile import Profile
-from i7000.settings import Protocol
+from i7000.settings import BaudRate, CharacterFormat, LineSettings, Protocol
 from i7000.type_codes import TypeCode
 
-__all__ = ["Checked", "Frame", "Report", "ReportError", "read_report", "texts"]
+__all__ = ["Change", "Checked", "Frame", "Report", "ReportError", "line_of", "read_report", "texts"]
 
 _DIGEST = re.compile(r', "digest": "([0-9a-f]{64})"}')
 """The end of the last line."""
@@ -51,13 +51,31 @@ class Frame:
 
 
 @frozen
+class Change:
+    """What a run did to the line between frames.
+
+    Shape: `line` are the other line settings of the host; None if the power of the module was switched off and on,
+        with the INIT switch set or not.
+    """
+
+    seconds: float
+    line: LineSettings | None = None
+    init_switch: bool = False
+
+
+@frozen
 class Checked:
     """A check of a report, with its traffic."""
 
     id: str
     verdict: str
     record: dict[str, Any]
-    frames: tuple[Frame, ...]
+    traffic: tuple[Frame | Change, ...]
+
+    @property
+    def frames(self) -> tuple[Frame, ...]:
+        """The bytes of the traffic."""
+        return tuple(it for it in self.traffic if isinstance(it, Frame))
 
     def __getitem__(self, name: str) -> Any:  # noqa: ANN401 - what JSON has
         """Return what the record has under a name; None without it."""
@@ -93,6 +111,11 @@ class Report:
         module = self.start.get("module")
         return module if isinstance(module, dict) else {}
 
+    @property
+    def line(self) -> LineSettings:
+        """The line settings at the beginning; those from the factory if the report is odd."""
+        return line_of(self.module) or LineSettings()
+
 
 def read_report(lines: Iterable[str]) -> Report:
     """Read a report from its lines.
@@ -107,8 +130,8 @@ def read_report(lines: Iterable[str]) -> Report:
     listener = _listener(found.start)
     checks = []
     for record in found.checks:
-        listener, frames = _frames(listener, found.wires.get(record["id"], ()))
-        checks.append(Checked(record["id"], str(record.get("verdict", Verdict.ERROR.value)), record, frames))
+        listener, traffic = _traffic(listener, found.wires.get(record["id"], ()))
+        checks.append(Checked(record["id"], str(record.get("verdict", Verdict.ERROR.value)), record, traffic))
     damage = (*found.problems, *found.edited())
     return Report(found.start, tuple(checks), found.end, (*damage, *found.missing()), damage)
 
@@ -138,16 +161,18 @@ class _Records:
         elif record is None:
             self.problems.append(f"line {number}: no JSON object")
         else:
-            self._sort(record, text)
+            self._sort(number, record, text)
         if self.end is None:
             self._add(text)
 
     def _add(self, text: str) -> None:
         self._digest.update(text.encode("utf-8", "surrogatepass") + b"\n")
 
-    def _sort(self, record: dict[str, Any], text: str) -> None:
+    def _sort(self, number: int, record: dict[str, Any], text: str) -> None:
         kind = record.get("record")
-        if kind == "wire" and isinstance(record.get("check"), str):
+        if kind == "line" and line_of(record) is None:
+            self.problems.append(f"line {number}: no line settings of a module")
+        elif kind in _ON_THE_LINE and isinstance(record.get("check"), str):
             self.wires.setdefault(record["check"], []).append(record)
         elif kind == "check" and isinstance(record.get("id"), str):
             self.checks.append(record)
@@ -209,9 +234,24 @@ def _types(settings: dict[str, Any], model: Model | None) -> tuple[TypeCode, ...
     return types if all(map(Profile(model, type_codes=()).supports, types)) else None
 
 
-def _frames(line: Line, records: Iterable[dict[str, Any]]) -> tuple[Line, tuple[Frame, ...]]:
-    found = []
-    for sent, group in groupby(records, key=lambda it: it.get("from") == "host"):
+def line_of(record: dict[str, Any]) -> LineSettings | None:
+    """Return the line settings of a record; None if no module can have them."""
+    rates = {rate.bits_per_second: rate for rate in BaudRate}
+    rate, form = record.get("baud_rate"), record.get("character_format")
+    if isinstance(rate, int) and rate in rates and isinstance(form, str) and form in CharacterFormat.__members__:
+        return LineSettings(rates[rate], CharacterFormat[form])
+    return None
+
+
+_ON_THE_LINE = ("wire", "line", "power")
+
+
+def _traffic(line: Line, records: Iterable[dict[str, Any]]) -> tuple[Line, tuple[Frame | Change, ...]]:
+    found: list[Frame | Change] = []
+    for (kind, sent), group in groupby(records, key=lambda it: (it["record"], it.get("from") == "host")):
+        if kind != "wire":
+            found += [Change(_seconds(it), line_of(it), it.get("init_switch") is True) for it in group]
+            continue
         pieces = [(_seconds(piece), _wire(piece)) for piece in group]
         if not sent:  # it comes in any pieces
             pieces = [(pieces[0][0], b"".join(wire for _, wire in pieces))]

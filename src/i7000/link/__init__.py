@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from i7000.link.errors import LinkError
     from i7000.link.guarded import BudgetError, GuardedPort
     from i7000.link.line import Line
-    from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
+    from i7000.link.observed import Abandoned, Asked, Happened, Observed, PowerCycled, Received, Tuned, Written
     from i7000.link.port import Port
     from i7000.link.process import ProcessPort
     from i7000.link.target import TargetOptions, open_target
@@ -38,6 +38,7 @@ __all__ = [
     "LinkError",
     "Observed",
     "Port",
+    "PowerCycled",
     "ProcessPort",
     "Received",
     "TargetOptions",
@@ -53,7 +54,7 @@ _PLACES = {
     "errors": ("LinkError",),
     "guarded": ("BudgetError", "GuardedPort"),
     "line": ("Line",),
-    "observed": ("Abandoned", "Asked", "Happened", "Observed", "Received", "Tuned", "Written"),
+    "observed": ("Abandoned", "Asked", "Happened", "Observed", "PowerCycled", "Received", "Tuned", "Written"),
     "port": ("Port",),
     "process": ("ProcessPort",),
     "target": ("TargetOptions", "open_target"),

@@ -17,7 +17,7 @@ from i7000.errors import I7000Error, Noise
 from i7000.host import Bus, Ended, Late, Outcome, Policy, Rejected, Transmit, abandon, next_deadline, receive, send
 from i7000.host.procedures import Ask, BytesHeard, PowerCycle, Procedure, Result, SendBytes, Tell, Tune, Wait
 from i7000.link.errors import LinkError
-from i7000.link.observed import Abandoned, Asked, Happened, Observed, Received, Tuned, Written
+from i7000.link.observed import Abandoned, Asked, Happened, Observed, PowerCycled, Received, Tuned, Written
 from i7000.message import Query, Response
 from i7000.profile import Profile
 
@@ -148,7 +148,10 @@ class Conversation:
 
     def power_cycle(self, step: PowerCycle) -> Acts[bool]:
         """Switch the power off and on, and return whether the port can do that."""
-        return (yield step) == SWITCHED
+        switched = (yield step) == SWITCHED
+        if switched:
+            self._show(PowerCycled(self.clock(), step.init_switch))
+        return switched
 
     def tune(self, step: Tune) -> Acts[None]:
         """Change the line settings of the host."""

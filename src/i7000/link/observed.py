@@ -7,7 +7,7 @@ from i7000.message import Query, Response
 from i7000.profile import Profile
 from i7000.settings import LineSettings
 
-__all__ = ["Abandoned", "Asked", "Happened", "Observed", "Received", "Tuned", "Written"]
+__all__ = ["Abandoned", "Asked", "Happened", "Observed", "PowerCycled", "Received", "Tuned", "Written"]
 
 
 @frozen
@@ -58,5 +58,13 @@ class Tuned:
     line: LineSettings
 
 
-Observed = Asked | Received | Written | Happened | Abandoned | Tuned
+@frozen
+class PowerCycled:
+    """The port switched the power of the modules off and on, with the INIT switch set or not."""
+
+    at: float
+    init_switch: bool
+
+
+Observed = Asked | Received | Written | Happened | Abandoned | Tuned | PowerCycled
 """What an observer is called with; `at` is the time of the clock of the line."""
