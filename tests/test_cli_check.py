@@ -179,6 +179,14 @@ def test_what_is_not_allowed_is_counted_with_what_to_allow(run: Run, monkeypatch
     assert told.out == "1 SKIP\n  1 not allowed:\n    1 need --allow comm\n"
 
 
+@pytest.mark.usefixtures("here")
+def test_a_pair_whose_negative_half_is_not_allowed_does_not_fail_the_run(run: Run) -> None:
+    told = run("check", SIM, "dcon/2.39/timeout", "link", "--allow", "comm", "--i-can-power-cycle")
+
+    assert told.code == 0
+    assert "    2 need --allow broadcast\n" in told.out
+
+
 def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Select only what is named, not what it needs."""
     monkeypatch.setattr("i7000.conformance.selection._completed", lambda found, _: found)

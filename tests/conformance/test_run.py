@@ -249,6 +249,15 @@ def test_a_text_that_selects_nothing_is_refused(text: str) -> None:
         selected(spec.statements(), [text])
 
 
+def test_a_check_whose_negative_half_is_not_allowed_is_skipped_like_it() -> None:
+    known = spec.statements()
+    alone = [
+        it.id for it in known.values() if it.positive and not it.hazards <= known[it.positive].hazards | allowing()
+    ]
+
+    assert alone == []
+
+
 def coded(*found: Verdict, strict: bool = False, known: tuple[str, ...] = ()) -> int:
     return exit_code([CheckResult(STATEMENT, it) for it in found], strict=strict, known=known)
 
