@@ -1,5 +1,6 @@
 """``i7000 replay``."""
 
+import inspect
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -7,6 +8,9 @@ from pathlib import Path
 import pytest
 
 from i7000 import Model
+from i7000.cli.check import check
+from i7000.cli.harm import HARMLESS, HarmOptions
+from i7000.cli.replay import replay
 from i7000.conformance.replay import Replayed
 from i7000.host.procedures import Procedure, Snapshot, Wait
 from i7000.link import LinkError
@@ -272,6 +276,12 @@ def test_a_report_of_modbus_is_sent_again(run: Run, tmp_path: Path) -> None:
     told = run("replay", path)
 
     assert told.code == 0, told.out
+
+
+def test_what_could_do_harm_has_the_same_options_as_in_a_check() -> None:
+    options = [inspect.signature(command).parameters["harm"] for command in (check, replay)]
+
+    assert [(it.annotation, it.default) for it in options] == [(HarmOptions, HARMLESS)] * 2
 
 
 COMM = ("--allow", "comm", "--allow", "broadcast", "--i-can-power-cycle")

@@ -6,6 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from i7000.cli.asked import DEFAULT_ONE, OneModule, asked_of
+from i7000.cli.harm import HARMLESS, HarmOptions
 from i7000.cli.options import UNKNOWN, Module, Texts
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions
 from i7000.cli.words import UsageError
@@ -27,16 +28,6 @@ def check(  # noqa: PLR0913 - each of them is an option
     schema: Annotated[
         bool, Parameter(help="Print the JSON Schema of a line of a JSON report, and end.", negative="")
     ] = False,
-    allow: Annotated[
-        Texts,
-        Parameter(help="Also send what could do harm: write, broadcast, comm or calibration; repeat it."),
-    ] = (),
-    confirm: Annotated[
-        str | None, Parameter(help="The name of the module, as it answers it: --allow calibration needs it.")
-    ] = None,
-    i_can_power_cycle: Annotated[
-        bool, Parameter(help="You can switch the power of the module off and on: --allow comm needs it.", negative="")
-    ] = False,
     strict: Annotated[bool, Parameter(help="Let what is allowed but strange (WARN) fail too.", negative="")] = False,
     certify: Annotated[
         bool,
@@ -57,19 +48,10 @@ def check(  # noqa: PLR0913 - each of them is an option
         str | None,
         Parameter(help="A file of i7000 statement: check the module against it, both ways, whatever is selected."),
     ] = None,
-    snapshot: Annotated[
-        str | None,
-        Parameter(
-            help="The new file for the settings before a run with --allow. Default: i7000-MODEL-ADDRESS-TIME.json."
-        ),
-    ] = None,
     seed: Annotated[int, Parameter(help="Seed of what is random.")] = 0,
     max_time: Annotated[str | None, Parameter(help="Begin no check after this time: 30s, 5min.")] = None,
-    timeout_scale: Annotated[
-        float, Parameter(help="Multiply all times to listen, for slow adapters and networks: 0.1 to 100.")
-    ] = 1.0,
-    eeprom_writes: Annotated[int, Parameter(help="The most frames that may change the EEPROM: 0 to 10000.")] = 64,
     quiet: Annotated[bool, Parameter(help="Print only what did not pass, and the summary.", negative="")] = False,
+    harm: HarmOptions = HARMLESS,
     line: LineOptions = DEFAULT_LINE,
     asking: AskOptions = DEFAULT_ASKING,
     one: OneModule = DEFAULT_ONE,
@@ -125,20 +107,15 @@ def check(  # noqa: PLR0913 - each of them is an option
         raise UsageError("give a port, such as /dev/ttyUSB0 or sim:M-7019R; --list and --explain need none")
     wishes = Wishes(
         select=select,
-        allow=allow,
-        confirm=confirm,
-        can_power_cycle=i_can_power_cycle,
+        harm=harm,
         strict=strict,
         certify=certify,
         baseline=baseline,
         baseline_update=baseline_update,
         reports=report,
         statement=statement,
-        snapshot=snapshot,
         seed=seed,
         max_time=max_time,
-        timeout_scale=timeout_scale,
-        eeprom_writes=eeprom_writes,
         quiet=quiet,
     )
     return run(asked_of(target, line, asking, one, module, detected=True), wishes)

@@ -11,26 +11,18 @@ from attrs import frozen
 from i7000 import InvalidValueError, spec
 from i7000.cli.baseline import read_baseline
 from i7000.cli.durations import seconds
+from i7000.cli.harm import HarmOptions
 from i7000.cli.module import named
 from i7000.cli.report_files import KINDS
 from i7000.cli.words import UsageError
 from i7000.conformance.claims import Claims
-from i7000.conformance.hazard import Hazard, allowing
 from i7000.conformance.run import Options, asked_for, selected
 from i7000.conformance.verdict import Verdict
 
-__all__ = ["Settings", "Wishes", "allowed_of", "check_limits", "settings_of"]
+__all__ = ["Settings", "Wishes", "settings_of"]
 
 _LARGEST_STATEMENT = 1 << 20
 """The bytes of the largest statement that is read."""
-_SCALES = 0.1, 100.0
-_MOST_WRITES = 10_000
-_ASKED_FOR = {
-    "write": Hazard.WRITE,
-    "broadcast": Hazard.BROADCAST,
-    "comm": Hazard.COMM,
-    "calibration": Hazard.CALIBRATION,
-}
 
 
 @frozen(kw_only=True)
@@ -38,20 +30,15 @@ class Wishes:
     """The options of a run."""
 
     select: tuple[str, ...]
-    allow: tuple[str, ...]
-    confirm: str | None
-    can_power_cycle: bool
+    harm: HarmOptions
     strict: bool
     certify: bool
     baseline: str | None
     baseline_update: bool
     reports: tuple[str, ...]
     statement: str | None
-    snapshot: str | None
     seed: int
     max_time: str | None
-    timeout_scale: float
-    eeprom_writes: int
     quiet: bool
 
 
@@ -84,7 +71,7 @@ def settings_of(wishes: Wishes) -> Settings:
         asked = asked_for(spec.statements(), select)
     except InvalidValueError as error:
         raise UsageError(error) from None
-    check_limits(wishes.timeout_scale, wishes.eeprom_writes)
+    wishes.harm.check()
     limit = None
     if wishes.max_time is not None:
         with named(f"--max-time {wishes.max_time}"):
@@ -92,10 +79,10 @@ def settings_of(wishes: Wishes) -> Settings:
     if wishes.baseline_update and wishes.baseline is None:
         raise UsageError("--baseline-update needs --baseline FILE")
     options = Options(
-        allowed=allowed_of(wishes.allow, confirm=wishes.confirm, can_power_cycle=wishes.can_power_cycle),
+        allowed=wishes.harm.allowed(),
         seed=wishes.seed,
-        timeout_scale=wishes.timeout_scale,
-        writes=wishes.eeprom_writes,
+        timeout_scale=wishes.harm.timeout_scale,
+        writes=wishes.harm.eeprom_writes,
         seconds=limit,
         claims=_claims(wishes),
     )
@@ -103,15 +90,6 @@ def settings_of(wishes: Wishes) -> Settings:
     if wishes.baseline is not None:
         baseline = read_baseline(wishes.baseline, update=wishes.baseline_update)
     return Settings(ids, asked, options, _reports(wishes.reports), baseline)
-
-
-def check_limits(timeout_scale: float, eeprom_writes: int) -> None:
-    """Raise `UsageError` for numbers that --timeout-scale and --eeprom-writes cannot be."""
-    low, high = _SCALES
-    if not low <= timeout_scale <= high:
-        raise UsageError(f"--timeout-scale {timeout_scale:g}: give {low:g} to {high:g}")
-    if not 0 <= eeprom_writes <= _MOST_WRITES:
-        raise UsageError(f"--eeprom-writes {eeprom_writes}: give 0 to {_MOST_WRITES}")
 
 
 def _claims(wishes: Wishes) -> Claims | None:
@@ -129,24 +107,6 @@ def _claims(wishes: Wishes) -> Claims | None:
         return Claims.from_json(data[:_LARGEST_STATEMENT])
     except InvalidValueError as error:
         raise UsageError(f"{wishes.statement}: {error.reason}") from None
-
-
-def allowed_of(texts: Iterable[str], *, confirm: str | None, can_power_cycle: bool) -> frozenset[Hazard]:
-    """Return what the options --allow, --confirm and --i-can-power-cycle allow.
-
-    Errors: `UsageError`.
-    """
-    hazards = []
-    for text in texts:
-        if text not in _ASKED_FOR:
-            raise UsageError(f"--allow {text}: give {', '.join(_ASKED_FOR)}")
-        hazards.append(_ASKED_FOR[text])
-    allowed = allowing(hazards)
-    if Hazard.COMM in allowed and not can_power_cycle:
-        raise UsageError("--allow comm can lose the module: add --i-can-power-cycle if you can switch its power")
-    if Hazard.CALIBRATION in allowed and confirm is None:
-        raise UsageError("--allow calibration can destroy the calibration: add --confirm NAME, the name of the module")
-    return allowed
 
 
 def _reports(texts: Iterable[str]) -> tuple[tuple[str, str], ...]:

@@ -19,7 +19,6 @@ from i7000.cli.keeping import Keeper
 from i7000.cli.progress import note_estimate
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
-from i7000.cli.snapshot_file import check_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance.hazard import Hazard
@@ -46,8 +45,6 @@ _CUT_SHORT = frozenset({SkipReason.BUDGET, SkipReason.PREREQUISITE})
 def run(asked: Asked, wishes: Wishes) -> int:
     """Carry out a run; return the exit code."""
     settings = settings_of(wishes)
-    if wishes.snapshot is not None:
-        check_new(wishes.snapshot)
     printer, stream = Printer(), ReportStream(settings.reports)
 
     def body(open_line: OpenLine) -> int:
@@ -65,7 +62,7 @@ class _Checking:
         self._asked, self._wishes, self._settings = asked, wishes, settings
         self._printer, self._stream = printer, stream
         self._screen = Screen(printer, stream, settings.baseline, quiet=wishes.quiet)
-        self._keeper = Keeper(asked.target, settings.options.allowed, printer, wishes.snapshot)
+        self._keeper = Keeper(asked.target, settings.options.allowed, printer, wishes.harm.snapshot)
 
     def examine(self, open_line: OpenLine) -> int:
         """Check the module: ask what it is, carry out the plan, and restore it."""
@@ -76,7 +73,7 @@ class _Checking:
         if not before.settings:
             raise LineError(f"{there.words} stopped answering: nothing was checked")
         options = self._settings.options
-        self._keeper.check_name(before, self._wishes.confirm)
+        self._keeper.check_name(before, self._wishes.harm.confirm)
         eeprom = eeprom_of(before)
         init_mode = there.address == 0 and eeprom.address != 0
         if init_mode and Hazard.COMM in options.allowed:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from i7000.cli.options import Texts
+from i7000.cli.harm import HARMLESS, HarmOptions
 from i7000.cli.port import DEFAULT_ASKING, DEFAULT_LINE, AskOptions, LineOptions
 
 __all__ = ["replay"]
@@ -15,24 +15,10 @@ def replay(  # noqa: PLR0913 - each of them is an option
     target: Annotated[str | None, Parameter(help="The port; that of the report unless given.")] = None,
     /,
     *,
-    allow: Annotated[
-        Texts, Parameter(help="Also send what could do harm: write, broadcast, comm or calibration; repeat it.")
-    ] = (),
-    confirm: Annotated[
-        str | None, Parameter(help="The name of the module, as it answers it: --allow calibration needs it.")
-    ] = None,
-    i_can_power_cycle: Annotated[
-        bool, Parameter(help="You can switch the power of the module off and on: --allow comm needs it.", negative="")
-    ] = False,
-    snapshot: Annotated[
-        str | None,
-        Parameter(help="The new file for the settings before --allow. Default: i7000-MODEL-ADDRESS-TIME.json."),
-    ] = None,
-    eeprom_writes: Annotated[int, Parameter(help="The most frames that may change settings: 0 to 10000.")] = 64,
     edited: Annotated[
         bool, Parameter(help="Also send a report that was changed after it was written.", negative="")
     ] = False,
-    timeout_scale: Annotated[float, Parameter(help="Multiply all times to listen: 0.1 to 100.")] = 1.0,
+    harm: HarmOptions = HARMLESS,
     line: LineOptions = DEFAULT_LINE,
     asking: AskOptions = DEFAULT_ASKING,
 ) -> int:
@@ -58,15 +44,5 @@ def replay(  # noqa: PLR0913 - each of them is an option
     from i7000.cli.replaying import Wishes  # noqa: PLC0415 - it takes time
     from i7000.cli.replaying import run as carry_out  # noqa: PLC0415 - it takes time
 
-    wishes = Wishes(
-        file=run,
-        target=target,
-        allow=allow,
-        confirm=confirm,
-        can_power_cycle=i_can_power_cycle,
-        snapshot=snapshot,
-        eeprom_writes=eeprom_writes,
-        timeout_scale=timeout_scale,
-        edited=edited,
-    )
+    wishes = Wishes(file=run, target=target, harm=harm, edited=edited)
     return carry_out(wishes, line, asking)

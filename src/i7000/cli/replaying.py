@@ -9,15 +9,14 @@ import signal
 from attrs import frozen
 
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, asked_of
-from i7000.cli.check_options import allowed_of, check_limits
 from i7000.cli.choices import protocol_word
+from i7000.cli.harm import HarmOptions
 from i7000.cli.keeping import Keeper, home_of
 from i7000.cli.options import UNKNOWN, Module
 from i7000.cli.port import AskOptions, LineOptions
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
 from i7000.cli.report_files import read_lines
-from i7000.cli.snapshot_file import check_new
 from i7000.cli.text import Printer
 from i7000.cli.words import LineError, UsageError
 from i7000.conformance import GuardError
@@ -43,21 +42,14 @@ class Wishes:
 
     file: str
     target: str | None
-    allow: tuple[str, ...]
-    confirm: str | None
-    can_power_cycle: bool
-    snapshot: str | None
-    eeprom_writes: int
-    timeout_scale: float
+    harm: HarmOptions
     edited: bool
 
 
 def run(wishes: Wishes, line: LineOptions, asking: AskOptions) -> int:
     """Send the frames of a report again; return the exit code."""
-    check_limits(wishes.timeout_scale, wishes.eeprom_writes)
-    allowed = allowed_of(wishes.allow, confirm=wishes.confirm, can_power_cycle=wishes.can_power_cycle)
-    if wishes.snapshot is not None:
-        check_new(wishes.snapshot)
+    wishes.harm.check()
+    allowed = wishes.harm.allowed()
     printer = Printer()
     report = _read(wishes, printer)
     given = report.start.get("given_model")
@@ -93,12 +85,12 @@ class _Replaying:
     ) -> None:
         self._asked, self._wishes, self._report, self._printer = asked, wishes, report, printer
         self._allowed = allowed
-        self._keeper = Keeper(asked.target, allowed, printer, wishes.snapshot)
+        self._keeper = Keeper(asked.target, allowed, printer, wishes.harm.snapshot)
         self._results: list[Replayed] = []
 
     def guarded(self, port: Port) -> Port:
         """Return the guarded port of a port."""
-        self._port = GuardedPort(port, self._allowed, budget=self._wishes.eeprom_writes)
+        self._port = GuardedPort(port, self._allowed, budget=self._wishes.harm.eeprom_writes)
         return self._port
 
     def examine(self, open_line: OpenLine) -> int:
@@ -109,7 +101,7 @@ class _Replaying:
         if not before.settings:
             raise LineError(f"{there.words} stopped answering: nothing was sent")
         _check_same(self._report, before, there)
-        self._keeper.check_name(before, self._wishes.confirm)
+        self._keeper.check_name(before, self._wishes.harm.confirm)
         self._keeper.keep(before, there)
         open_line.ending.hold()
         return self._carry_out(open_line, before, there)
@@ -119,7 +111,7 @@ class _Replaying:
         line = open_line.line.line
         try:
             with open_line.ending.breakable():
-                open_line.line.run(replaying(self._report, timeout_scale=self._wishes.timeout_scale), self._tell)
+                open_line.line.run(replaying(self._report, timeout_scale=self._wishes.harm.timeout_scale), self._tell)
         except KeyboardInterrupt:
             ended = 128 + (open_line.ending.number or signal.SIGINT)
         except LinkError as error:
