@@ -81,6 +81,7 @@ def test_a_model_is_what_its_row_says(model: Model) -> None:
 
     assert {key: value for key, value in row.items() if key != "errata"} == {
         "name": model.value,
+        "key": model.name,
         "series": model.series,
         "protocols": [{"DCON": "dcon", "MODBUS_RTU": "modbus"}[it.name] for it in Protocol if it in model.protocols],
         "channels": model.channels,
