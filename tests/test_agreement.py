@@ -91,6 +91,7 @@ def test_a_model_is_what_its_row_says(model: Model) -> None:
         "types": {f"{code:02X}": as_text(firmware) for code, firmware in sorted(model.type_codes.items())},
         "individually_configurable": individually,
         "uses_tt": model.type_by_configuration,
+        "mixed_types": individually if model.type_by_configuration else "ignored",
         "fast_mode": model.fast_mode,
         "fast_mode_default": model.fast_mode_default,
         "sampling_rate": model.sampling_rate,

@@ -160,10 +160,19 @@ def test_bits_stand_where_the_package_reads_them() -> None:
         setting = row["setting"] if row["setting"] in IN_BYTE else AS_SETTING.get(row["name"], row["name"])
         if setting in IN_BYTE:
             cells.append(Cell(FILE, row_id(row), "where", row["where"][:2], byte_of(setting)))
-            cells.append(Cell(FILE, row_id(row), "where", in_bits(row["where"]), bits_of(setting)))
+            bits = bits_of(setting)
+            cells.append(Cell(FILE, row_id(row), "where", in_bits(row["where"]), bits))
+            cells.append(Cell(FILE, row_id(row), "low_bit, bits", (row["low_bit"], row["bits"]), (bits[-1], len(bits))))
 
-    assert len(cells) == 58
+    assert len(cells) == 87
     assert wrong(cells) == []
+
+
+def test_what_is_a_whole_field_has_no_bits_of_a_byte() -> None:
+    whole = [row for row in ROWS if not re.match("CC|FF", row["where"] or "")]
+
+    assert len(whole) > 50
+    assert wrong([cell(row, column, None) for row in whole for column in ("low_bit", "bits")]) == []
 
 
 def test_the_status_of_the_host_watchdog_has_one_bit_a_code() -> None:
