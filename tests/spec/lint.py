@@ -1,7 +1,8 @@
 """The canonical text of the files under ``spec/``, and the walks over them that their tests share.
 
 ``python -m tests.spec.lint`` prints what is wrong with the files, a line each: JSON that cannot be read, a record that
-does not fit its schema, text that is not canonical. With ``--fix`` it makes the text canonical first.
+does not fit its schema, text that is not canonical, an index of other files than these. With ``--fix`` it makes the
+text canonical first, and the index anew.
 
 Laws: a data file is one JSON object with a top-level key a line and a record a line, and of a story a step a line; keys
 stand in the order of the schema; a schema is indented by two. Nothing here knows what a field means.
@@ -44,11 +45,13 @@ SCHEMAS = {
     "checks": "checks",
 }
 """Which schema a file, or else every file of a folder, has; any other file has the schema of its own name."""
+INDEX = "index.json"
+"""The one file that is generated, by `tests.spec.index`."""
 
 
 def data_files() -> list[Path]:
-    """Every table, the errata, every vector file and every story file."""
-    return sorted(path for path in SPEC.rglob("*.json") if path.parent != SPEC / "schema")
+    """Every table, the errata, every vector file and every story file: all that is written by hand."""
+    return sorted(path for path in SPEC.rglob("*.json") if path.parent != SPEC / "schema" and name(path) != INDEX)
 
 
 def schema_files() -> list[Path]:
@@ -248,6 +251,8 @@ def fix(path: Path) -> bool:
 
 def main(arguments: Sequence[str]) -> int:
     """Check every file, after rewriting it with ``--fix``; the exit status is 1 if something is wrong."""
+    from tests.spec import index  # noqa: PLC0415 - that stands on this module
+
     paths = data_files() + schema_files()
     if "--fix" in arguments:
         for path in paths:
@@ -255,6 +260,9 @@ def main(arguments: Sequence[str]) -> int:
                 if fix(path):
                     sys.stdout.write(f"{name(path)} rewritten\n")
     wrong = [fault for path in paths for fault in faults(path)]
+    if "--fix" in arguments and not wrong and index.fix():
+        sys.stdout.write(f"{INDEX} rewritten\n")
+    wrong = wrong or index.faults()
     for fault in wrong:
         sys.stdout.write(f"{fault}\n")
     return int(bool(wrong))

@@ -10,6 +10,7 @@ import pytest
 
 from tests.spec import lint
 from tests.spec.cells import Cell, row_id, wrong
+from tests.spec.index import place
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,11 +44,6 @@ def test_errata_are_named_once_and_stand_in_order() -> None:
     numbers = [number(erratum["id"]) for erratum in lint.rows("errata")]
 
     assert numbers == sorted(set(numbers))
-
-
-def place(section: str) -> list[tuple[bool, int, str]]:
-    """Where a section stands in the manual: chapters by number, then appendices by letter."""
-    return [(not part.isdigit(), int(part) if part.isdigit() else 0, part) for part in section.split(".")]
 
 
 def test_the_sections_of_an_erratum_are_named_once_and_stand_in_order() -> None:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from i7000.conformance.statement import Statement
 
-__all__ = ["data_files", "digest", "files", "statements"]
+__all__ = ["data_files", "digest", "files", "statements", "version"]
 
 
 def files() -> Traversable:
@@ -50,10 +50,19 @@ def digest() -> str:
     return found.hexdigest()
 
 
+@cache
+def version() -> str:
+    """Return the version of the files; ``README.md`` says what its numbers mean."""
+    return files().joinpath("VERSION").read_text("utf-8").strip()
+
+
+_WITHOUT_ENDING = ("LICENSE", "VERSION")
+
+
 def data_files(folder: Traversable, above: str = "") -> Iterator[tuple[str, Traversable]]:
-    """Yield the JSON and text files under a folder with their names, in the order of the names."""
+    """Yield the files of the data under a folder with their names, in the order of the names."""
     for entry in sorted(folder.iterdir(), key=lambda it: it.name):
         if entry.is_dir() and not entry.name.startswith(("_", ".")):
             yield from data_files(entry, f"{above}{entry.name}/")
-        elif entry.name.endswith((".json", ".md")):
+        elif entry.name.endswith((".json", ".md")) or entry.name in _WITHOUT_ENDING:
             yield f"{above}{entry.name}", entry
