@@ -1,5 +1,5 @@
 // A wrapper for `i7000 vectors -- node docs/examples/vectors.js`: a few functions, to show how little it takes.
-// The protocol is in docs/port_the_codec.md, what the functions do in spec/README.md.
+// The protocol is in docs/port_the_codec.md, what the functions do in spec/runner.md.
 "use strict";
 const TYPES = new Map(require("../../spec/tables/type_codes.json").rows.map((row) => [row.code, row]));
 const OUT_OF_RANGE = { "+9999.9": "over_range", "-9999.9": "under_range" };

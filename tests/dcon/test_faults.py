@@ -1,4 +1,4 @@
-"""The code against the rule of ``spec/README.md``: which command a body is, and which fault a body has that is none."""
+"""The code against the rule of ``spec/dcon.md``: which command a body is, and which fault a body has that is none."""
 
 from __future__ import annotations
 

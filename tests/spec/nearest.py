@@ -1,4 +1,4 @@
-"""Which command a DCON body is, and its fault if it is none: an implementation of ``spec/README.md`` from its tables.
+"""Which command a DCON body is, and its fault if it is none: an implementation of ``spec/dcon.md`` from its tables.
 
 Laws: nothing of `i7000` is imported; every rule here is a sentence of the chapter "Which command a body is".
 """

@@ -65,7 +65,7 @@ RULES: dict[str, Callable[[Profile], set[int]]] = {
     "channel_bits": lambda profile: {1 << bit for bit in range(channels_of(profile))} | {0},
     "offset_channels": lambda profile: {0, *range(0x80, 0x80 + channels_of(profile))},
 }
-"""The rules of README.md, on the columns of ``models.json``; of a mask, the numbers with one bit or none."""
+"""The rules of dcon.md, on the columns of ``models.json``; of a mask, the numbers with one bit or none."""
 
 
 def byte_of(name: str, profile: Profile) -> set[int]:

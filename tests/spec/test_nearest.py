@@ -1,4 +1,4 @@
-"""The rule of ``spec/README.md`` for which command a body is, held against its own examples and against the vectors."""
+"""The rule of ``spec/dcon.md`` for which command a body is, held against its own examples and against the vectors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ROWS = {row["name"]: row for row in COMMANDS}
 VECTORS = [vector for _, vector in lint.vectors("dcon")]
 FRAME_FAULTS = {"terminator", "leading", "checksum"}
 EXAMPLES = re.findall(
-    r"^\| `([%#$~@]\S*)` \| (\S+) \| `(\w+)` \|", (lint.SPEC / "README.md").read_text(encoding="utf-8"), re.MULTILINE
+    r"^\| `([%#$~@]\S*)` \| (\S+) \| `(\w+)` \|", (lint.SPEC / "dcon.md").read_text(encoding="utf-8"), re.MULTILINE
 )
 
 

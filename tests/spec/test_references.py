@@ -12,8 +12,8 @@ from tests.spec import lint
 if TYPE_CHECKING:
     from pathlib import Path
 
-README = lint.SPEC / "README.md"
-TEXTS = [README, *lint.data_files(), *lint.schema_files()]
+PAGES = sorted(lint.SPEC.glob("*.md"))
+TEXTS = [*PAGES, *lint.data_files(), *lint.schema_files()]
 OUTSIDE = re.compile(
     r"\bsrc/\S*|\btests?[/.][a-z]\S*|\bpytest\b|\bpython\b|\S+\.py\b|\bi7000\b|\.\./\S*", re.IGNORECASE
 )
@@ -32,7 +32,8 @@ def test_a_file_refers_to_nothing_outside(path: Path) -> None:
     assert references(OUTSIDE, path) == []
 
 
-def test_every_file_that_the_readme_refers_to_exists() -> None:
-    missing = [path for path in INSIDE.findall(README.read_text(encoding="utf-8")) if not (lint.SPEC / path).exists()]
+def test_every_file_that_the_pages_refer_to_exists() -> None:
+    text = "".join(path.read_text(encoding="utf-8") for path in PAGES)
+    missing = [path for path in INSIDE.findall(text) if not (lint.SPEC / path).exists()]
 
     assert missing == []

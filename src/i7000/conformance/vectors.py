@@ -1,7 +1,7 @@
 """The vectors of ``spec/vectors`` as cases: what a codec is given, and what it has to answer.
 
 A vector makes one case for each function of a codec that it shows. The functions, here called operations, and what each
-has to do with a vector are those of ``spec/README.md``, "A runner, in any language".
+has to do with a vector are those of ``spec/runner.md``.
 
 Laws: every vector of a known file makes at least one case. A case has no object of this package in it, only what JSON
 can express.

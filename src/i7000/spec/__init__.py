@@ -1,7 +1,7 @@
 """The installed folder ``spec/``: tables, vectors, stories, checks, errata and schemas, as JSON files.
 
 In a wheel, the files are in this package. In a checkout or an editable install, they are in its ``spec/``. `files`
-returns the folder in both cases. Its ``README.md`` explains the files.
+returns the folder in both cases. Its ``README.md`` is the first of the pages that explain them.
 """
 
 import json
@@ -20,7 +20,7 @@ __all__ = ["data_files", "digest", "files", "statements", "version"]
 
 
 def files() -> Traversable:
-    """Return the folder with the README, the errata, and the folders of checks, schemas, stories, tables and vectors.
+    """Return the folder with the pages, the index, the errata, and the folders of all other files.
 
     >>> import json
     >>> commands = json.loads(files().joinpath("tables", "dcon_commands.json").read_text("utf-8"))
