@@ -117,10 +117,21 @@ def _unique(pairs: list[tuple[str, Json]]) -> Record:
 
 
 def rows(table: str) -> list[Record]:
-    """The rows of one table, by its name under ``tables/`` without ending; ``errata`` too."""
+    """The rows of one table, by its name under ``tables/`` without ending; ``errata`` too.
+
+    Where the models of a row are ``all``, they are listed.
+    """
     path = SPEC / f"{table}.json" if table == "errata" else SPEC / "tables" / f"{table}.json"
     found: list[Record] = load(path)["rows"]
+    for row in found:
+        if row.get("models") == "all":
+            row["models"] = all_models("dcon" if table == "dcon_commands" else "modbus")
     return found
+
+
+def all_models(protocol: str) -> dict[str, None]:
+    """The models that speak a protocol, as a table lists them where none has a limit of firmware."""
+    return {row["name"]: None for row in rows("models") if protocol in row["protocols"]}
 
 
 def vectors(folder: str = "") -> Iterator[tuple[Path, Record]]:

@@ -225,6 +225,15 @@ def test_a_model_agrees_with_itself(model: str) -> None:
     assert list(row["types"]) == sorted(row["types"])
 
 
+@pytest.mark.parametrize("table", ["dcon_commands", "modbus_functions", "module_settings"])
+def test_a_row_for_all_models_does_not_list_them(table: str) -> None:
+    rows = lint.load(lint.SPEC / "tables" / f"{table}.json")["rows"]
+    every = lint.all_models("dcon" if table == "dcon_commands" else "modbus")
+
+    assert [row["name"] for row in rows if row["models"] == every] == []
+    assert [row["name"] for row in rows if row["models"] == "all"] != []
+
+
 def test_the_commands_are_one_a_section_in_order() -> None:
     sections = [row["section"] for row in lint.rows("dcon_commands")]
 
