@@ -4,8 +4,9 @@
 does not fit its schema, text that is not canonical, an index of other files than these. With ``--fix`` it makes the
 text canonical first, and the index anew.
 
-Laws: a data file is one JSON object with a top-level key a line and a record a line, and of a story a step a line; keys
-stand in the order of the schema; a schema is indented by two. Nothing here knows what a field means.
+Laws: a data file is one JSON object with a top-level key a line and a record a line, and of a story a step a line, but
+no line is longer than `LONGEST`; keys stand in the order of the schema; a schema is indented by two. Nothing here knows
+what a field means.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from jsonschema import Draft202012Validator
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 Json: TypeAlias = Any
 Record: TypeAlias = dict[str, Any]
@@ -161,28 +162,52 @@ def schema_path(path: Path) -> Path:
 
 
 def canonical(data: Mapping[str, Json]) -> str:
-    """The one way to write a file: schemas indented, everything else a record a line, and the steps of a story too."""
+    """The one way to write a file: schemas indented, everything else a record a line, and the steps of a story too.
+
+    An object or list that makes a line longer than `LONGEST` has a line for each of its items.
+    """
     if "$schema" in data:
         return json.dumps(data, ensure_ascii=False, indent=2) + "\n"
-    entries = [f"  {_line(key)}: {_value(value)}" for key, value in data.items()]
+    entries = [f"  {_line(key)}: {_value(value, len(key) + 4)}" for key, value in data.items()]
     return "{\n" + ",\n".join(entries) + "\n}\n"
+
+
+LONGEST = 1000
+"""The most characters of a line, if no text is longer by itself."""
 
 
 def _line(value: Json) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(", ", ": "))
 
 
-def _value(value: Json) -> str:
+def _value(value: Json, before: int) -> str:
     if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
-        return "[\n" + ",\n".join(f"    {_record(item)}" for item in value) + "\n  ]"
-    return _line(value)
+        return _lines("[]", (_record(item) for item in value), 2)
+    return _fitting(value, 2, before)
 
 
 def _record(record: Record) -> str:
     if "steps" not in record:
-        return _line(record)
+        return _fitting(record, 4)
     head = _line({key: value for key, value in record.items() if key != "steps"})
-    return f'{head[:-1]}, "steps": [\n' + ",\n".join(f"      {_line(step)}" for step in record["steps"]) + "\n    ]}"
+    return f'{head[:-1]}, "steps": {_lines("[]", (_fitting(step, 6) for step in record["steps"]), 4)}}}'
+
+
+def _fitting(value: Json, indent: int, before: int = 0) -> str:
+    """A value on one line if it has room there, behind as many blanks and characters and before a comma."""
+    text = _line(value)
+    if indent + before + len(text) < LONGEST or not isinstance(value, dict | list):
+        return text
+    if isinstance(value, list):
+        return _lines("[]", (_fitting(item, indent + 2) for item in value), indent)
+    keys = {_line(key): item for key, item in value.items()}
+    return _lines("{}", (f"{key}: {_fitting(item, indent + 2, len(key) + 2)}" for key, item in keys.items()), indent)
+
+
+def _lines(brackets: str, items: Iterable[str], indent: int) -> str:
+    """The items of a list or object, one a line, between its brackets."""
+    inner = ",\n".join(f"{' ' * (indent + 2)}{item}" for item in items)
+    return f"{brackets[0]}\n{inner}\n{' ' * indent}{brackets[1]}"
 
 
 def ordered(value: Json, schema: Mapping[str, Json], root: Mapping[str, Json] | None = None) -> Json:

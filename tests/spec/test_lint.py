@@ -159,6 +159,30 @@ def test_the_canonical_text_has_a_record_a_line() -> None:
     )
 
 
+def test_what_is_too_long_for_a_line_has_a_line_for_each_item() -> None:
+    long = "x" * (lint.LONGEST - 30)
+    data = {"notes": {"a": "b"}, "rows": [{"a": [1, {"b": long}], "c": "d"}], "last": {"e": [long, long]}}
+
+    assert lint.canonical(data).replace(long, "...") == (
+        '{\n  "notes": {"a": "b"},\n  "rows": [\n    {\n      "a": [1, {"b": "..."}],\n      "c": "d"\n    }\n  ],\n'
+        '  "last": {\n    "e": [\n      "...",\n      "..."\n    ]\n  }\n}\n'
+    )
+
+
+@pytest.mark.parametrize(("characters", "longest"), [(978, lint.LONGEST), (979, 993)])
+def test_a_line_has_as_many_characters_as_may_be(characters: int, longest: int) -> None:
+    found = lint.canonical({"rows": [{"a": "x" * characters, "b": 1}, {}]})
+
+    assert max(map(len, found.splitlines())) == longest
+
+
+@pytest.mark.parametrize("path", DATA_FILES + SCHEMA_FILES)
+def test_no_line_is_too_long_unless_a_text_is_so_by_itself(path: Path) -> None:
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if len(line) > lint.LONGEST]
+
+    assert [line for line in lines if not re.fullmatch(r' +("\w+": )?"[^"]{900,}",?', line)] == []
+
+
 def test_keys_are_put_in_the_order_of_the_schema() -> None:
     inner = {"oneOf": [{"properties": {"type": {"const": kind}, kind: {}}} for kind in ("a", "b")]}
     schema = {"properties": {"x": {}, "y": {"items": {"$ref": "#/$defs/inner"}}}, "$defs": {"inner": inner}}
