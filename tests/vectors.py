@@ -74,6 +74,8 @@ def message_of(record: Record, messages: dict[str, Any] = MESSAGES) -> Any:
         value = values[field.name]
         if field.name in kinds:
             values[field.name] = kinds[field.name](value)
+        elif field.type.__origin__ == tuple[bool, ...]:
+            values[field.name] = tuple(bit == "1" for bit in value)
         elif isinstance(value, list):
             values[field.name] = tuple(value)
         elif field.name == "temperature":

@@ -285,10 +285,10 @@ def test_a_code_of_an_exception_is_one_of_its_function(path: Path) -> None:
 def filled(pdu: str, fields: Record, channels: int) -> bytes:
     """The PDU with its fields in place."""
     values = fields.get("values", [])
-    bits = sum(1 << index for index, value in enumerate(values) if value is True).to_bytes(
-        (len(values) + 7) // 8, "little"
-    )
-    data = bits if values and isinstance(values[0], bool) else b"".join(value.to_bytes(2, "big") for value in values)
+    if isinstance(values, str):
+        data = int(values[::-1], 2).to_bytes((len(values) + 7) // 8, "little")
+    else:
+        data = b"".join(value.to_bytes(2, "big") for value in values)
     given = {"bytes": len(data), "count": len(values), **fields}
     found = b""
     for token in pdu.split():

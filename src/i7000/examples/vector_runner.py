@@ -86,6 +86,8 @@ def message_of(record: Record, kinds: Kinds) -> Any:  # noqa: ANN401 - of any cl
 def _value(kind: Any, value: Any) -> Any:  # noqa: ANN401 - a type, and what JSON has for it
     if kind is bytes:
         return bytes.fromhex(value)
+    if kind == tuple[bool, ...]:
+        return tuple(bit == "1" for bit in value)
     if value.__class__ is list:
         return tuple(value)
     if kind in (LineSettings, ReportSettings):
@@ -104,6 +106,8 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - of any field
         return value.hex()
     if isinstance(value, LineSettings | ReportSettings):
         return value.byte
+    if isinstance(value, tuple) and isinstance(value[0], bool):
+        return "".join(f"{bit:d}" for bit in value)
     return value.value if isinstance(value, Enum) else value
 
 
