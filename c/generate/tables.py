@@ -1,0 +1,257 @@
+"""``i7000.h``: the tables of ``spec/tables/`` as rows of values."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from c.generate.spec import FORMATS, STATUSES, Record, Spec, field_of, firmware
+from c.generate.values import Value, items, number, numbered, optional_text, row, text, upper
+
+__all__ = ["KINDS", "NEVER", "TOKENS", "WIDTHS", "Table", "tables"]
+
+NEVER = 0xFFFFFFFF
+"""The firmware from which on a model has what no model has; as a last firmware, the newest."""
+_ALL_TYPES = (1 << 29) - 1
+_NO_LIMIT = {"minimum": -(1 << 31), "maximum": (1 << 31) - 1}
+
+# The numbers of the enumerations in the template of the header, which the self-test holds against them.
+KINDS = numbered(("LITERAL", "HEX", "BOOLEAN", "CHOICE", "SIGNED_HEX", "DECIMAL", "TEXT", "READING", "READINGS"))
+_KINDS_OF_FIELDS = {
+    "enabled": "BOOLEAN", "first_reading": "BOOLEAN", "modbus_supported": "BOOLEAN", "single_ended": "BOOLEAN",
+    "protocol": "CHOICE", "update": "CHOICE", "offset": "SIGNED_HEX", "temperature": "DECIMAL",
+    "name": "TEXT", "version": "TEXT", "value": "READING", "values": "READINGS",
+}  # fmt: skip
+"""The fields of DCON that are not numbers in hex (README.md of spec, Commands and responses)."""
+WIDTHS = numbered(("FIXED", "MASK", "DIAGNOSTICS", "CHANNEL", "READING", "TEXT"))
+_WIDTHS_OF_FIELDS = {"channel": "CHANNEL", "value": "READING", "values": "READING", "name": "TEXT", "version": "TEXT"}
+TOKENS = numbered(
+    ("LITERAL", "NUMBER", "SIGNED", "BOOLEAN", "CHOICE", "COIL", "MASK", "BYTES", "BITS", "WORDS", "FUNCTION")
+)
+AREAS = numbered(("coil", "discrete_input", "input_register", "holding_register"))
+ACCESS = {"R": 1, "W": 2, "R/W": 3}
+REGISTER_TYPES = ("bool", "reading", "uint16", "int16", "int8", "uint32", "code", "bits", "record")
+UNITS = ("mV", "V", "mA", "degC")
+
+
+class Table(NamedTuple):
+    """An array of structures."""
+
+    name: str
+    kind: str
+    rows: list[Value]
+
+
+def tables(spec: Spec) -> list[Table]:
+    """Return the tables of ``i7000.h``."""
+    return [
+        Table("i7000_types", "i7000_type", [_type(it) for it in spec.rows("type_codes")]),
+        Table(
+            "i7000_sentinels",
+            "i7000_sentinel",
+            [_sentinel(it) for it in spec.rows("settings") if it["setting"] == "sentinel"],
+        ),
+        Table("i7000_models", "i7000_model", [_model(it) for it in spec.rows("models")]),
+        Table("i7000_dcon_commands", "i7000_dcon_command", [_command(it, spec) for it in spec.rows("dcon_commands")]),
+        Table(
+            "i7000_modbus_functions",
+            "i7000_modbus_request",
+            [_request(it, spec) for it in spec.rows("modbus_functions") if it["name"]],
+        ),
+        Table(
+            "i7000_module_settings", "i7000_modbus_request", [_request(it, spec) for it in spec.rows("module_settings")]
+        ),
+        Table("i7000_maps", "i7000_map", [_map(it, spec) for it in spec.maps]),
+    ]
+
+
+def _enum(prefix: str, key: str, value: int) -> Value:
+    return number(value, f"I7000_{prefix}_{upper(key)}")
+
+
+def _firmware(version: str | None, *, none: int = 0) -> Value:
+    """Return a version; `none` is what None means."""
+    if version is None:
+        return number(none, "I7000_NEVER" if none else "I7000_ANY")
+    major, minor = version[1:].split(".")
+    return number(firmware(version), f"I7000_FIRMWARE('{version[0]}', {major}, {minor})")
+
+
+def _bits(mask: int) -> Value:
+    return number(mask, f"0x{mask:08X}u")
+
+
+def _gates(models: dict[str, str | None], spec: Spec) -> Value:
+    """Return which models have something, and from which firmware on: one gate a firmware."""
+    by_firmware: dict[str | None, list[str]] = {}
+    for name, first in models.items():
+        by_firmware.setdefault(first, []).append(name)
+    gates = [row(_bits(spec.mask(names)), _firmware(first)) for first, names in by_firmware.items()]
+    return items(gates, "i7000_gate")
+
+
+def _type(it: Record) -> Value:
+    decimals = it["engineering_decimals"]
+    counts = (number(round(it[end] * 10**decimals)) for end in ("minimum", "maximum", "max"))
+    words = (number(int(it[end], 16), f"0x{it[end]}") for end in ("hex_min", "hex_max"))
+    return row(
+        text(it["name"]), _enum("UNIT", it["unit"].upper(), UNITS.index(it["unit"])), number(decimals),
+        number(it["hex_signed"]), number(it["thermocouple"] is not None), *counts, *words,
+        number(it["modbus_min"]), number(it["modbus_max"]), number(it["modbus_counts_per_unit"]),
+        text(it["percent_min"]), text(it["percent_max"]),
+    )  # fmt: skip
+
+
+def _sentinel(it: Record) -> Value:
+    is_word = isinstance(it["value"], int)
+    types = _ALL_TYPES if it["types"] is None else sum(1 << int(code, 16) for code in it["types"])
+    return row(
+        _enum("STATUS", it["name"], STATUSES[it["name"]]), _enum("FORMAT", it["format"], FORMATS[it["format"]]),
+        number(it["until"] is not None), _bits(types),
+        optional_text(None if is_word else it["value"]), number(it["value"] & 0xFFFF if is_word else 0),
+    )  # fmt: skip
+
+
+def _model(it: Record) -> Value:
+    later = {first for first in it["types"].values() if first}
+    (types_from,) = later or {None}  # two firmwares would need a gate for each type
+    codes = {code: 1 << int(code, 16) for code in it["types"]}
+    return row(
+        text(it["name"]), number(int(it["series"])), number("modbus" in it["protocols"]), number(it["channels"]),
+        number(it["single_ended_channels"] or it["channels"]), number(it["single_ended_by_command"]),
+        number(it["mask_digits"]), number(it["mask_digits_single_ended"] or it["mask_digits"]),
+        number(4 if it["name"] == "M-7019Z" else 2),
+        _default_type(it["default_type"]), number(it["uses_tt"]), number(it["cjc"]),
+        number(it["open_wire_detection"]), number(it["fast_mode"]),
+        _bits(sum(codes.values())), _bits(sum(bit for code, bit in codes.items() if it["types"][code])),
+        _firmware(types_from), _from(it["individually_configurable"]), _from(it["filter"]),
+        _firmware(it["character_formats_from"]),
+    )  # fmt: skip
+
+
+def _default_type(code: str | None) -> Value:
+    return number(0xFF, "I7000_NO_TYPE") if code is None else number(int(code, 16), f"0x{code}")
+
+
+def _from(value: str | bool | None) -> Value:  # noqa: FBT001 - as the column has it
+    """Return the firmware from which on a model has something: ``always`` or true, a version, or null for never."""
+    return _firmware(None) if value in ("always", True) else _firmware(str(value) if value else None, none=NEVER)
+
+
+def _limits(it: Record) -> Iterator[Value]:
+    for end, none in _NO_LIMIT.items():
+        yield number(none, f"I7000_NO_{end.upper()}") if it[end] is None else number(it[end])
+
+
+# --- DCON -------------------------------------------------------------------------------------------------------------
+
+
+def _command(it: Record, spec: Spec) -> Value:
+    pause = it["pause"] or {"seconds": 0, "what": "", "firmware_from": None, "firmware_to": None}
+    response = it["response"]
+    return row(
+        text(it["name"]), text(it["section"]), text(it["syntax"]), optional_text(it["response_syntax"]),
+        _message("DCON", response, spec.dcon), _parts(it["syntax"], it["fields"], spec),
+        _parts(it["response_syntax"] or "", it["response_fields"], spec), _gates(it["models"], spec),
+        number(round(pause["seconds"] * 1000)), number(pause["what"] == "until done"),
+        _firmware(pause["firmware_from"]), _firmware(pause["firmware_to"], none=NEVER),
+    )  # fmt: skip
+
+
+def _message(protocol: str, name: str | None, names: dict[str, int]) -> Value:
+    return number(0xFF, "I7000_NO_MESSAGE") if name is None else _enum(protocol, name, names[name])
+
+
+def _parts(syntax: str, fields: list[Record], spec: Spec) -> Value:
+    """Return a syntax as parts: literal characters, and fields in their places.
+
+    The notation of a field occurs once behind the leading character, and the last possible place is its own: the S of
+    ``@AASN`` is a letter, N the field.
+    """
+    parts: list[Value] = []
+    at = 0
+    for it in fields:
+        place = syntax.rindex(it["notation"], at) if it["name"] != "address" else syntax.index("AA", at)
+        if place > at:
+            parts.append(_part(syntax[at:place], "none", "LITERAL", {"minimum": None, "maximum": None}, spec))
+        parts.append(_part(it["notation"], it["name"], _KINDS_OF_FIELDS.get(it["name"], "HEX"), it, spec))
+        at = place + len(it["notation"])
+    if at < len(syntax):
+        parts.append(_part(syntax[at:], "none", "LITERAL", {"minimum": None, "maximum": None}, spec))
+    return items(parts, "i7000_part")
+
+
+def _part(notation: str, name: str, kind: str, it: Record, spec: Spec) -> Value:
+    digits = it.get("digits", len(notation))
+    several = digits if isinstance(digits, list) else [digits]
+    width = _WIDTHS_OF_FIELDS.get(name, "DIAGNOSTICS" if notation == "NN" else "MASK") if len(several) > 1 else "FIXED"
+    return row(
+        text(notation), _enum("FIELD", name, spec.fields[name]), _enum("KIND", kind, KINDS[kind]),
+        _enum("WIDTH", width, WIDTHS[width]), number(min(several)), number(max(several)), *_limits(it),
+    )  # fmt: skip
+
+
+# --- Modbus -----------------------------------------------------------------------------------------------------------
+
+
+def _request(it: Record, spec: Spec) -> Value:
+    function = it.get("function", "46")
+    sub_function = it.get("sub_function")
+    fields, response_fields = it.get("fields", []), it.get("response_fields", [])
+    return row(
+        text(it["name"]), text(it["section"]), number(int(function, 16), f"0x{function}"),
+        number(int(sub_function, 16), f"0x{sub_function}") if sub_function else number(0xFF, "I7000_NO_SUB_FUNCTION"),
+        number(it.get("broadcast", False)), number(it.get("minimum_count") or 0),
+        number(it.get("maximum_count") or 0),
+        _message("MODBUS", it["response_name"], spec.modbus), text(it["request"]), text(it["response"]),
+        _tokens(it["request"], fields, spec), _tokens(it["response"], response_fields, spec),
+        _gates(it["models"], spec),
+    )  # fmt: skip
+
+
+def _tokens(pdu: str, fields: list[Record], spec: Spec) -> Value:
+    by_name = {it["name"]: it for it in fields}
+    return items([_token(token, by_name, pdu, spec) for token in pdu.split()], "i7000_token")
+
+
+def _token(token: str, fields: dict[str, Record], pdu: str, spec: Spec) -> Value:
+    name = field_of(token)
+    _, _, size = token.partition(":")
+    if token == "bytes":  # noqa: S105 - of a PDU
+        kind, size = "BYTES", "1"
+    elif name is None:
+        kind = "LITERAL"
+    elif size in ("bits", "words", "mask"):
+        kind, size = size.upper(), "0"
+    elif token.endswith("+80"):
+        kind = "FUNCTION"
+    elif name == "value" and pdu.startswith("05"):
+        kind = "COIL"
+    else:
+        kind = {"offset": "SIGNED", "enabled": "BOOLEAN", "protocol": "CHOICE", "update": "CHOICE"}.get(name, "NUMBER")
+    limits = fields.get(name or "", {"minimum": None, "maximum": None})
+    return row(
+        _enum("TOKEN", kind, TOKENS[kind]), number(int(size or 1)), number(int(token, 16) if kind == "LITERAL" else 0),
+        _enum("FIELD", name or "none", spec.fields[name or "none"]), *_limits(limits),
+    )  # fmt: skip
+
+
+def _map(it: Record, spec: Spec) -> Value:
+    rows = [_register(register, it["models"], spec) for register in it["rows"]]
+    return row(
+        text(it["section"]), _bits(spec.mask(it["models"])), _firmware(it["firmware"]),
+        number(it["maximum_write_count"] or 0), items(rows, "i7000_register"),
+    )  # fmt: skip
+
+
+def _register(it: Record, models: list[str], spec: Spec) -> Value:
+    values = [row(number(int(code)), text(label)) for code, label in (it["values"] or {}).items()]
+    scale = number(0 if it["scale"] is None else round(1 / it["scale"]))
+    return row(
+        text(it["name"]), optional_text(it["unit"]), scale, number(int(it["first"])), number(it["address"]),
+        number(it["count"]), _enum("AREA", it["area"], AREAS[it["area"]]), number(ACCESS[it["access"]], _access(it)),
+        _enum("REGISTER", it["type"], REGISTER_TYPES.index(it["type"])), *_limits(it), items(values, "i7000_value"),
+        _bits(spec.mask(it["models"] or models)), _firmware(it["firmware"]),
+    )  # fmt: skip
+
+
+def _access(it: Record) -> str:
+    return "I7000_" + {"R": "READ", "W": "WRITE", "R/W": "READ | I7000_WRITE"}[it["access"]]
