@@ -441,7 +441,7 @@ def test_what_a_module_does_not_take_can_be_forced(message: Any, profile: Profil
         ),
         (
             lambda: dcon.decode_response(b"!01zz\r", dcon.ReadFirmwareVersion(1), M_7019R),
-            (Fault.LENGTH, "version", 5, "a letter, a digit, a point, one or two digits", "2.23"),
+            (Fault.LENGTH, "", 5, "7 to 8 characters: !AA(Data)", "2.23"),
         ),
         (
             lambda: dcon.decode_response(b"!01ABCDEFGH\r", dcon.ReadModuleName(1), M_7019R),

@@ -179,3 +179,10 @@ def test_a_response_has_the_fault_that_the_rule_gives(row: Record, data: st.Data
     assert (
         response_fault(row, sent, body, record) == outcome(dcon.decode_response, body, command, profile_of(record))[1]
     )
+
+
+def test_the_length_of_a_version_is_a_fault_before_what_is_in_front_of_it() -> None:
+    with pytest.raises(DecodeError, match="allowed: 7 to 8 characters") as caught:
+        dcon.decode_response(b"!0aA20\r", dcon.ReadFirmwareVersion(0x0A), PROFILES[0])
+
+    assert caught.value.fault.value == "length"

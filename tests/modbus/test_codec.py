@@ -282,6 +282,13 @@ def test_an_invalid_request_frame_raises_the_fault_and_its_place(
     assert (fault, offset, frame(body)) == (caught.value.fault, caught.value.offset, caught.value.wire)
 
 
+def test_a_response_of_four_bytes_is_too_short_whatever_its_crc() -> None:
+    with pytest.raises(DecodeError) as caught:
+        modbus.decode_response(bytes.fromhex("01030302"), modbus.ReadHoldingRegisters(1, 0, 1), M_7019R)
+
+    assert caught.value.fault is Fault.LENGTH
+
+
 @pytest.mark.parametrize(
     ("request_", "body", "fault", "offset", "said"),
     [

@@ -100,7 +100,11 @@ class Layout:
     def explain(self, body: str, profile: Profile, frame: bytes, section: str) -> DecodeError:
         """Return the reason why `decode` fails on `body`: its length, or the first mismatch from the left."""
         widths = [_width(piece, profile) for _, piece in self.pieces]
-        shortest, longest = sum(1 if width is None else width for width in widths), self.longest(profile)
+        shortest = sum(
+            piece.shortest if isinstance(piece, Part) and width is None else width or 0
+            for (_, piece), width in zip(self.pieces, widths, strict=True)
+        )
+        longest = self.longest(profile)
         if not shortest <= len(body) <= longest:
             characters = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
             allowed = f"{characters} characters: {self.syntax}"

@@ -42,6 +42,8 @@ class Part(NamedTuple):
     """Whether `parse` takes the profile as its second argument."""
     longest: Callable[[Profile], int] | None = None
     """Returns the maximum width of a part that takes all remaining characters."""
+    shortest: int = 1
+    """The minimum width of such a part."""
     characters: str = DIGITS
     """The allowed characters; for another one `explain` reports `Fault.CHARACTER`."""
     signed: bool = False
@@ -187,8 +189,8 @@ def _text(
 
     return Part(
         notation, allowed, "%b", "{}.encode()",
-        accepts, parse, width="rest", longest=lambda _: longest, characters="".join(sorted(CHARACTERS)),
-        describe=repr,
+        accepts, parse, width="rest", longest=lambda _: longest, shortest=shortest,
+        characters="".join(sorted(CHARACTERS)), describe=repr,
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from i7000.errors import DecodeError, EncodeError, Fault
 from i7000.modbus import channel_settings, cold_junction, module_settings, standard
 from i7000.modbus.channel_settings import ReadChannelMask, ReadMiscellaneousSettings
 from i7000.modbus.cold_junction import ReadCjcOffset
-from i7000.modbus.frame import sealed, unseal
+from i7000.modbus.frame import SHORTEST_FRAME, sealed, unseal
 from i7000.modbus.request import (
     BROADCAST,
     EXCEPTION_BIT,
@@ -147,9 +147,9 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
         frame = as_bytes("frame", frame)
     if not isinstance(request, Request):
         check_type("request", request, Request)  # type: ignore[unreachable] # with types
+    if len(frame) == SHORTEST_FRAME:  # of a request
+        raise DecodeError(Fault.LENGTH, frame, SHORTEST_FRAME - 2, allowed="at least 5 bytes", section="3")
     body = unseal(frame)
-    if len(body) < _SHORTEST_RESPONSE:
-        raise DecodeError(Fault.LENGTH, frame, len(body), allowed="at least 5 bytes", section="3")
     if body[0] != request.address or body[0] == BROADCAST:
         allowed = f"{request.address:02X}" if is_answered(request) else "no response to a broadcast"
         raise DecodeError(Fault.ADDRESS, frame, 0, field="address", allowed=allowed, section=request.section)
@@ -166,10 +166,6 @@ def decode_response(frame: bytes, request: Request[R], profile: Profile) -> R | 
         _check_echo(request, body, frame)
     response: R = _held_against(request, _decode(request.response, body, frame, profile), frame, profile)
     return response
-
-
-_SHORTEST_RESPONSE = 3
-"""The length of an exception: address and PDU, in bytes."""
 
 
 def _address_error(frame: bytes) -> DecodeError:
