@@ -88,6 +88,7 @@ def test_the_page_about_the_line_has_the_defaults() -> None:
     [
         *sorted(path.name for path in ROOT.glob("*.md")),
         *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "spec").glob("*.md")),
+        "c/README.md",
         "tests/README.md",
         "docs/check_a_module.md",
         "docs/half_duplex.md",
