@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from c.generate.fuzz import fuzz_harness
 from c.generate.header import header
 from c.generate.proof import selftest
 from c.generate.spec import Spec
@@ -16,6 +17,7 @@ def generated(folder: Path) -> dict[str, str]:
     found = sections(spec)
     return {
         "c/i7000.h": header(spec),
+        "c/i7000_fuzz.c": fuzz_harness(spec),
         "c/i7000_selftest.c": selftest(spec, found),
         "c/i7000_vectors.h": vectors_header(found),
     }
