@@ -10,7 +10,7 @@
  * and the tables are defined there. Compile that file with -fdata-sections and link with --gc-sections: tables that you
  * do not use take no memory. Nothing here allocates, and nothing is code, but for two inline functions.
  *
- * Sections (2.10) are those of the vendor manual, revision B3.6. spec/README.md explains every word used here.
+ * Sections (2.10) are those of the vendor manual, revision B3.6. spec/README.md and its pages explain the words.
  */
 #ifndef I7000_H
 #define I7000_H
@@ -335,7 +335,7 @@ enum {
     I7000_FIELD_VERSION = 34,
 };
 
-/* Why bytes are rejected; spec/README.md says when. */
+/* Why bytes are rejected; spec/dcon.md and spec/modbus.md say when. */
 enum {
     I7000_FAULT_NONE = 0,
     I7000_FAULT_LENGTH = 1,
@@ -402,38 +402,39 @@ enum {
 enum {
     I7000_KIND_LITERAL = 0,    /* those of the notation */
     I7000_KIND_HEX = 1,        /* upper-case hex digits */
-    I7000_KIND_BOOLEAN = 2,    /* 0 or 1; anything else has the fault VALUE */
-    I7000_KIND_CHOICE = 3,     /* a digit from 0 to maximum; anything else has the fault VALUE */
+    I7000_KIND_BOOL = 2,       /* 0 or 1; anything else has the fault VALUE */
+    I7000_KIND_CODE = 3,       /* a digit from 0 to maximum; anything else has the fault VALUE */
     I7000_KIND_SIGNED_HEX = 4, /* a sign and four upper-case hex digits */
     I7000_KIND_DECIMAL = 5,    /* a sign and five digits, a point before the last */
-    I7000_KIND_TEXT = 6,       /* 20h to 7Eh without the eight leading characters */
-    I7000_KIND_READING = 7,    /* the field of one channel */
-    I7000_KIND_READINGS = 8,   /* the fields of all channels */
+    I7000_KIND_NAME = 6,       /* 20h to 7Eh without the eight leading characters */
+    I7000_KIND_VERSION = 7,    /* the same; a letter, a digit, a point, one or two digits */
+    I7000_KIND_READING = 8,    /* the field of one channel */
+    I7000_KIND_READINGS = 9,   /* the fields of all channels */
 };
 
 /* What decides how many characters a part has. */
 enum {
-    I7000_WIDTH_FIXED = 0,       /* nothing: `digits` */
-    I7000_WIDTH_MASK = 1,        /* the model and single-ended inputs: mask_digits... */
-    I7000_WIDTH_DIAGNOSTICS = 2, /* the model: diagnostics_digits */
-    I7000_WIDTH_CHANNEL = 3,     /* most_digits with single-ended inputs by command, else `digits` */
-    I7000_WIDTH_READING = 4,     /* `digits` a channel in hex, else most_digits */
-    I7000_WIDTH_TEXT = 5,        /* any number from `digits` to most_digits */
+    I7000_WIDTH_FIXED = 0,          /* nothing: `digits`; of READINGS, so many a channel */
+    I7000_WIDTH_MASK_DIGITS = 1,    /* the model and single-ended inputs: mask_digits... */
+    I7000_WIDTH_CHANNEL_DIGITS = 2, /* most_digits with single-ended inputs by command, else `digits` */
+    I7000_WIDTH_READING_DIGITS = 3, /* `digits` a channel in hex, else most_digits */
+    I7000_WIDTH_LENGTH = 4,         /* any number from `digits` to most_digits */
 };
 
 /* What the bytes of a token are. */
 enum {
-    I7000_TOKEN_LITERAL = 0,  /* `value` */
-    I7000_TOKEN_NUMBER = 1,   /* a number, high byte first */
-    I7000_TOKEN_SIGNED = 2,   /* the same in two's complement */
-    I7000_TOKEN_BOOLEAN = 3,  /* 0 or 1 */
-    I7000_TOKEN_CHOICE = 4,   /* 0 to maximum */
-    I7000_TOKEN_COIL = 5,     /* FF00 is 1, 0000 is 0 */
-    I7000_TOKEN_MASK = 6,     /* (channels + 7) / 8 bytes */
-    I7000_TOKEN_BYTES = 7,    /* how many bytes follow */
-    I7000_TOKEN_BITS = 8,     /* count / 8 bytes, rounded up; the first bit is bit 0 of the first byte */
-    I7000_TOKEN_WORDS = 9,    /* count words */
-    I7000_TOKEN_FUNCTION = 10, /* the function of the request with bit 7 set */
+    I7000_TOKEN_LITERAL = 0,   /* `value` */
+    I7000_TOKEN_UNSIGNED = 1,  /* a number, high byte first */
+    I7000_TOKEN_SIGNED = 2,    /* the same in two's complement */
+    I7000_TOKEN_BOOL = 3,      /* 0 or 1 */
+    I7000_TOKEN_CODE = 4,      /* 0 to maximum */
+    I7000_TOKEN_COIL = 5,      /* FF00 is 1, 0000 is 0 */
+    I7000_TOKEN_DIGITS = 6,    /* hex digits, two a byte */
+    I7000_TOKEN_MASK = 7,      /* (channels + 7) / 8 bytes */
+    I7000_TOKEN_BYTES = 8,     /* how many bytes follow */
+    I7000_TOKEN_BITS = 9,      /* count / 8 bytes, rounded up; the first bit is bit 0 of the first byte */
+    I7000_TOKEN_WORDS = 10,    /* count words */
+    I7000_TOKEN_FUNCTION = 11, /* the function of the request with bit 7 set */
 };
 
 /* Areas of a map: function 01, 02, 04 and 03 read them. */
@@ -511,7 +512,6 @@ typedef struct i7000_model {
     uint8_t is_single_ended_by_command;
     uint8_t mask_digits;
     uint8_t mask_digits_single_ended;
-    uint8_t diagnostics_digits; /* of the response to $AAB */
     uint8_t default_type; /* I7000_NO_TYPE: the manual names none */
     uint8_t uses_tt; /* TT of %AANNTTCCFF sets the type of all channels */
     uint8_t has_cjc;
@@ -794,115 +794,115 @@ const i7000_sentinel i7000_sentinels[27] = {
 };
 const i7000_model i7000_models[28] = {
     {
-        "I-7017", 7017, 0, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 0, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017", 7017, 0, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 0, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017F", 7017, 0, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017F", 7017, 0, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017C", 7017, 0, 8, 8, 0, 2, 2, 2, 0x0D, 1, 0, 0, 0, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017C", 7017, 0, 8, 8, 0, 2, 2, 0x0D, 1, 0, 0, 0, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017FC", 7017, 0, 8, 8, 0, 2, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017FC", 7017, 0, 8, 8, 0, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017R", 7017, 0, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017R", 7017, 0, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_FIRMWARE('B', 3, 9), I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017RC", 7017, 0, 8, 8, 0, 2, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "I-7017RC", 7017, 0, 8, 8, 0, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017R-A5", 7017, 0, 8, 8, 0, 2, 2, 2, 0x1B, 1, 0, 0, 1, 0x18000000u, 0x00000000u, I7000_ANY, I7000_NEVER,
+        "I-7017R-A5", 7017, 0, 8, 8, 0, 2, 2, 0x1B, 1, 0, 0, 1, 0x18000000u, 0x00000000u, I7000_ANY, I7000_NEVER,
         I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7017Z", 7017, 0, 10, 20, 1, 4, 6, 2, 0x08, 0, 0, 0, 1, 0x04003F80u, 0x00000000u, I7000_ANY, I7000_ANY,
+        "I-7017Z", 7017, 0, 10, 20, 1, 4, 6, 0x08, 0, 0, 0, 1, 0x04003F80u, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017", 7017, 1, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 0, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "M-7017", 7017, 1, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 0, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017C", 7017, 1, 8, 8, 0, 2, 2, 2, 0x0D, 1, 0, 0, 0, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "M-7017C", 7017, 1, 8, 8, 0, 2, 2, 0x0D, 1, 0, 0, 0, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017R", 7017, 1, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "M-7017R", 7017, 1, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 1, 0x04003F80u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_FIRMWARE('B', 3, 9), I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017RC", 7017, 1, 8, 8, 0, 2, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        "M-7017RC", 7017, 1, 8, 8, 0, 2, 2, 0x0D, 1, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
         I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017R-A5", 7017, 1, 8, 8, 0, 2, 2, 2, 0x1B, 1, 0, 0, 1, 0x18000000u, 0x00000000u, I7000_ANY, I7000_NEVER,
+        "M-7017R-A5", 7017, 1, 8, 8, 0, 2, 2, 0x1B, 1, 0, 0, 1, 0x18000000u, 0x00000000u, I7000_ANY, I7000_NEVER,
         I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017Z", 7017, 1, 10, 20, 1, 4, 6, 2, 0x08, 0, 0, 0, 1, 0x04003F80u, 0x00000000u, I7000_ANY, I7000_ANY,
+        "M-7017Z", 7017, 1, 10, 20, 1, 4, 6, 0x08, 0, 0, 0, 1, 0x04003F80u, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017RMS", 7017, 1, 8, 8, 0, 2, 2, 2, 0x08, 1, 0, 0, 0, 0x00001F00u, 0x00000000u, I7000_ANY, I7000_ANY,
+        "M-7017RMS", 7017, 1, 8, 8, 0, 2, 2, 0x08, 1, 0, 0, 0, 0x00001F00u, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "M-7017mC-16", 7017, 1, 16, 16, 0, 4, 4, 2, 0x0D, 0, 0, 0, 1, 0x04002080u, 0x04000080u,
-        I7000_FIRMWARE('B', 2, 2), I7000_ANY, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
+        "M-7017mC-16", 7017, 1, 16, 16, 0, 4, 4, 0x0D, 0, 0, 0, 1, 0x04002080u, 0x04000080u, I7000_FIRMWARE('B', 2, 2),
+        I7000_ANY, I7000_ANY, I7000_FIRMWARE('B', 2, 6),
     },
     {
-        "I-7018", 7018, 0, 8, 8, 0, 2, 2, 2, 0x05, 1, 1, 0, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
+        "I-7018", 7018, 0, 8, 8, 0, 2, 2, 0x05, 1, 1, 0, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER, I7000_ANY,
+        I7000_FIRMWARE('B', 2, 9),
+    },
+    {
+        "I-7018P", 7018, 0, 8, 8, 0, 2, 2, 0x05, 1, 1, 0, 0, 0x01FFC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
         I7000_ANY, I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "I-7018P", 7018, 0, 8, 8, 0, 2, 2, 2, 0x05, 1, 1, 0, 0, 0x01FFC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
+        "I-7018BL", 7018, 0, 8, 8, 0, 2, 2, I7000_NO_TYPE, 1, 1, 1, 0, 0x007FC000u, 0x00000000u, I7000_ANY, I7000_NEVER,
         I7000_ANY, I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "I-7018BL", 7018, 0, 8, 8, 0, 2, 2, 2, I7000_NO_TYPE, 1, 1, 1, 0, 0x007FC000u, 0x00000000u, I7000_ANY,
-        I7000_NEVER, I7000_ANY, I7000_FIRMWARE('B', 2, 9),
-    },
-    {
-        "I-7018R", 7018, 0, 8, 8, 0, 2, 2, 2, 0x05, 1, 1, 1, 0, 0x03FFC07Fu, 0x00000000u, I7000_ANY,
+        "I-7018R", 7018, 0, 8, 8, 0, 2, 2, 0x05, 1, 1, 1, 0, 0x03FFC07Fu, 0x00000000u, I7000_ANY,
         I7000_FIRMWARE('B', 4, 2), I7000_ANY, I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "I-7018Z", 7018, 0, 10, 10, 0, 4, 4, 2, 0x05, 0, 1, 1, 0, 0x07FFC0FFu, 0x00000000u, I7000_ANY, I7000_ANY,
+        "I-7018Z", 7018, 0, 10, 10, 0, 4, 4, 0x05, 0, 1, 1, 0, 0x07FFC0FFu, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 3, 1),
     },
     {
-        "M-7018", 7018, 1, 8, 8, 0, 2, 2, 2, 0x05, 1, 1, 0, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
-        I7000_ANY, I7000_FIRMWARE('B', 2, 9),
+        "M-7018", 7018, 1, 8, 8, 0, 2, 2, 0x05, 1, 1, 0, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER, I7000_ANY,
+        I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "M-7018R", 7018, 1, 8, 8, 0, 2, 2, 2, 0x05, 1, 1, 1, 0, 0x03FFC07Fu, 0x00000000u, I7000_ANY,
+        "M-7018R", 7018, 1, 8, 8, 0, 2, 2, 0x05, 1, 1, 1, 0, 0x03FFC07Fu, 0x00000000u, I7000_ANY,
         I7000_FIRMWARE('B', 4, 5), I7000_ANY, I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "M-7018Z", 7018, 1, 10, 10, 0, 4, 4, 2, 0x05, 0, 1, 1, 0, 0x07FFC0FFu, 0x00000000u, I7000_ANY, I7000_ANY,
+        "M-7018Z", 7018, 1, 10, 10, 0, 4, 4, 0x05, 0, 1, 1, 0, 0x07FFC0FFu, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 3, 1),
     },
     {
-        "M-7018-16", 7018, 1, 16, 16, 0, 4, 4, 2, 0x05, 1, 1, 1, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
+        "M-7018-16", 7018, 1, 16, 16, 0, 4, 4, 0x05, 1, 1, 1, 0, 0x007FC07Fu, 0x00000000u, I7000_ANY, I7000_NEVER,
         I7000_ANY, I7000_FIRMWARE('B', 2, 9),
     },
     {
-        "I-7019R", 7019, 0, 8, 8, 0, 2, 2, 2, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x04000080u, I7000_FIRMWARE('B', 2, 7),
+        "I-7019R", 7019, 0, 8, 8, 0, 2, 2, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x04000080u, I7000_FIRMWARE('B', 2, 7),
         I7000_ANY, I7000_FIRMWARE('B', 2, 7), I7000_FIRMWARE('B', 3, 1),
     },
     {
-        "M-7019R", 7019, 1, 8, 8, 0, 2, 2, 2, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x04000080u, I7000_FIRMWARE('B', 2, 7),
+        "M-7019R", 7019, 1, 8, 8, 0, 2, 2, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x04000080u, I7000_FIRMWARE('B', 2, 7),
         I7000_ANY, I7000_FIRMWARE('B', 2, 7), I7000_FIRMWARE('B', 3, 1),
     },
     {
-        "M-7019Z", 7019, 1, 10, 10, 0, 4, 4, 4, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x00000000u, I7000_ANY, I7000_ANY,
+        "M-7019Z", 7019, 1, 10, 10, 0, 4, 4, 0x08, 0, 1, 1, 0, 0x07FFFFFFu, 0x00000000u, I7000_ANY, I7000_ANY,
         I7000_ANY, I7000_FIRMWARE('B', 3, 1),
     },
 };
@@ -945,7 +945,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {">", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {
-                "(Data)", I7000_FIELD_VALUES, I7000_KIND_READINGS, I7000_WIDTH_READING, 4, 7, I7000_NO_MINIMUM,
+                "(Data)", I7000_FIELD_VALUES, I7000_KIND_READINGS, I7000_WIDTH_READING_DIGITS, 4, 7, I7000_NO_MINIMUM,
                 I7000_NO_MAXIMUM,
             },
         },
@@ -958,13 +958,13 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"#", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"N", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL, 1, 2, 0, 19},
+            {"N", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL_DIGITS, 1, 2, 0, 19},
         },
         3,
         (const i7000_part[]){
             {">", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {
-                "(Data)", I7000_FIELD_VALUE, I7000_KIND_READING, I7000_WIDTH_READING, 4, 7, I7000_NO_MINIMUM,
+                "(Data)", I7000_FIELD_VALUE, I7000_KIND_READING, I7000_WIDTH_READING_DIGITS, 4, 7, I7000_NO_MINIMUM,
                 I7000_NO_MAXIMUM,
             },
         },
@@ -1101,9 +1101,9 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {">", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"S", I7000_FIELD_FIRST_READING, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"S", I7000_FIELD_FIRST_READING, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
             {
-                "(Data)", I7000_FIELD_VALUES, I7000_KIND_READINGS, I7000_WIDTH_READING, 4, 7, I7000_NO_MINIMUM,
+                "(Data)", I7000_FIELD_VALUES, I7000_KIND_READINGS, I7000_WIDTH_READING_DIGITS, 4, 7, I7000_NO_MINIMUM,
                 I7000_NO_MAXIMUM,
             },
         },
@@ -1117,7 +1117,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"$", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"5", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"VV", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_MASK, 2, 6, 0, 1048575},
+            {"VV", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_MASK_DIGITS, 2, 6, 0, 1048575},
         },
         4,
         (const i7000_part[]){
@@ -1139,7 +1139,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"VV", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_MASK, 2, 6, 0, 1048575},
+            {"VV", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_MASK_DIGITS, 2, 6, 0, 1048575},
         },
         3,
         (const i7000_gate[]){{0x0FFFFFFFu, I7000_ANY}},
@@ -1151,7 +1151,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"$", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"7C", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 2, 2, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL, 1, 2, 0, 19},
+            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL_DIGITS, 1, 2, 0, 19},
             {"R", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"rr", I7000_FIELD_TYPE_CODE, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 26},
         },
@@ -1175,14 +1175,14 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"$", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"8C", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 2, 2, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL, 1, 2, 0, 19},
+            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL_DIGITS, 1, 2, 0, 19},
         },
         4,
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"C", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL, 1, 2, 0, 19},
+            {"i", I7000_FIELD_CHANNEL, I7000_KIND_HEX, I7000_WIDTH_CHANNEL_DIGITS, 1, 2, 0, 19},
             {"R", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"rr", I7000_FIELD_TYPE_CODE, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 26},
         },
@@ -1259,7 +1259,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"i", I7000_FIELD_UPDATE, I7000_KIND_CHOICE, I7000_WIDTH_FIXED, 1, 1, 0, 2},
+            {"i", I7000_FIELD_UPDATE, I7000_KIND_CODE, I7000_WIDTH_FIXED, 1, 1, 0, 2},
         },
         3,
         (const i7000_gate[]){{0x0E000000u, I7000_ANY}},
@@ -1271,7 +1271,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"$", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"A", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"i", I7000_FIELD_UPDATE, I7000_KIND_CHOICE, I7000_WIDTH_FIXED, 1, 1, 0, 2},
+            {"i", I7000_FIELD_UPDATE, I7000_KIND_CODE, I7000_WIDTH_FIXED, 1, 1, 0, 2},
         },
         4,
         (const i7000_part[]){
@@ -1293,7 +1293,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"NN", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_DIAGNOSTICS, 2, 4, 0, 1023},
+            {"NN", I7000_FIELD_MASK, I7000_KIND_HEX, I7000_WIDTH_MASK_DIGITS, 2, 4, 0, 1023},
         },
         3,
         (const i7000_gate[]){{0x0E000000u, I7000_ANY}},
@@ -1311,7 +1311,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {
-                "(Data)", I7000_FIELD_VERSION, I7000_KIND_TEXT, I7000_WIDTH_TEXT, 4, 5, I7000_NO_MINIMUM,
+                "(Data)", I7000_FIELD_VERSION, I7000_KIND_VERSION, I7000_WIDTH_LENGTH, 4, 5, I7000_NO_MINIMUM,
                 I7000_NO_MAXIMUM,
             },
         },
@@ -1330,7 +1330,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"(Name)", I7000_FIELD_NAME, I7000_KIND_TEXT, I7000_WIDTH_TEXT, 1, 6, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {"(Name)", I7000_FIELD_NAME, I7000_KIND_NAME, I7000_WIDTH_LENGTH, 1, 6, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         3,
         (const i7000_gate[]){{0x0FFFFFFFu, I7000_ANY}},
@@ -1347,8 +1347,8 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"S", I7000_FIELD_MODBUS_SUPPORTED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
-            {"C", I7000_FIELD_PROTOCOL, I7000_KIND_CHOICE, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"S", I7000_FIELD_MODBUS_SUPPORTED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"C", I7000_FIELD_PROTOCOL, I7000_KIND_CODE, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -1360,7 +1360,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"$", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"P", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"N", I7000_FIELD_PROTOCOL, I7000_KIND_CHOICE, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_PROTOCOL, I7000_KIND_CODE, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_part[]){
@@ -1414,7 +1414,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         3,
         (const i7000_gate[]){{0x0FFF0000u, I7000_ANY}},
@@ -1426,7 +1426,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"~", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"C", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_part[]){
@@ -1443,7 +1443,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"~", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"E", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"V", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"V", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_part[]){
@@ -1476,7 +1476,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"~", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"O", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"(Name)", I7000_FIELD_NAME, I7000_KIND_TEXT, I7000_WIDTH_TEXT, 1, 6, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {"(Name)", I7000_FIELD_NAME, I7000_KIND_NAME, I7000_WIDTH_LENGTH, 1, 6, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         4,
         (const i7000_part[]){
@@ -1557,7 +1557,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"E", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"E", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
             {"VV", I7000_FIELD_TIMEOUT, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
         },
         4,
@@ -1570,7 +1570,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"~", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"3", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"E", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"E", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
             {"VV", I7000_FIELD_TIMEOUT, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
         },
         5,
@@ -1593,7 +1593,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         3,
         (const i7000_gate[]){{0x00480000u, I7000_FIRMWARE('B', 4, 2)}, {0x0E000000u, I7000_FIRMWARE('B', 3, 7)}},
@@ -1605,7 +1605,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"~", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"EO", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 2, 2, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_ENABLED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_part[]){
@@ -1627,7 +1627,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
         (const i7000_part[]){
             {"!", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
-            {"N", I7000_FIELD_SINGLE_ENDED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_SINGLE_ENDED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         3,
         (const i7000_gate[]){{0x00002080u, I7000_ANY}},
@@ -1639,7 +1639,7 @@ const i7000_dcon_command i7000_dcon_commands[43] = {
             {"@", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {"AA", I7000_FIELD_ADDRESS, I7000_KIND_HEX, I7000_WIDTH_FIXED, 2, 2, 0, 255},
             {"S", I7000_FIELD_NONE, I7000_KIND_LITERAL, I7000_WIDTH_FIXED, 1, 1, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {"N", I7000_FIELD_SINGLE_ENDED, I7000_KIND_BOOLEAN, I7000_WIDTH_FIXED, 1, 1, 0, 1},
+            {"N", I7000_FIELD_SINGLE_ENDED, I7000_KIND_BOOL, I7000_WIDTH_FIXED, 1, 1, 0, 1},
         },
         4,
         (const i7000_part[]){
@@ -1657,8 +1657,8 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "01 bytes values:bits",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 1, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 2000},
         },
         3,
         (const i7000_token[]){
@@ -1679,8 +1679,8 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "02 start:2 count:2", "02 bytes values:bits",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 2, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 2000},
         },
         3,
         (const i7000_token[]){
@@ -1697,8 +1697,8 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "03 start:2 count:2", "03 bytes values:words",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 3, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 125},
         },
         3,
         (const i7000_token[]){
@@ -1719,8 +1719,8 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "04 start:2 count:2", "04 bytes values:words",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 4, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 125},
         },
         3,
         (const i7000_token[]){
@@ -1737,13 +1737,13 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "05 coil:2 value:2", "05 coil:2 value:2",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 5, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COIL, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COIL, 0, 65535},
             {I7000_TOKEN_COIL, 2, 0, I7000_FIELD_VALUE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         3,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 5, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COIL, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COIL, 0, 65535},
             {I7000_TOKEN_COIL, 2, 0, I7000_FIELD_VALUE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         3,
@@ -1759,14 +1759,14 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "06 register:2 value:2", "06 register:2 value:2",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 6, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_REGISTER, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_VALUE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_REGISTER, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_VALUE, 0, 65535},
         },
         3,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 6, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_REGISTER, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_VALUE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_REGISTER, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_VALUE, 0, 65535},
         },
         3,
         (const i7000_gate[]){
@@ -1781,16 +1781,16 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         "0F start:2 count:2 bytes values:bits", "0F start:2 count:2",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 15, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_BYTES, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_BITS, 0, 0, I7000_FIELD_VALUES, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         5,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 15, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 1968},
         },
         3,
         (const i7000_gate[]){
@@ -1805,16 +1805,16 @@ const i7000_modbus_request i7000_modbus_functions[8] = {
         I7000_MODBUS_MULTIPLE_REGISTERS_WRITTEN, "10 start:2 count:2 bytes values:words", "10 start:2 count:2",
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 16, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_BYTES, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_WORDS, 0, 0, I7000_FIELD_VALUES, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         5,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 16, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_START, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 2, 0, I7000_FIELD_COUNT, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_START, 0, 65535},
+            {I7000_TOKEN_UNSIGNED, 2, 0, I7000_FIELD_COUNT, 1, 123},
         },
         3,
         (const i7000_gate[]){
@@ -1836,7 +1836,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 4, 0, I7000_FIELD_NAME, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
+            {I7000_TOKEN_DIGITS, 4, 0, I7000_FIELD_NAME, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -1848,7 +1848,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 4, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_NEW_ADDRESS, 1, 247},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_NEW_ADDRESS, 1, 247},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
@@ -1857,7 +1857,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 4, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
@@ -1879,11 +1879,11 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 5, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_LINE_SETTINGS, 3, 202},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_LINE_SETTINGS, 3, 202},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_CHOICE, 1, 0, I7000_FIELD_PROTOCOL, 0, 1},
+            {I7000_TOKEN_CODE, 1, 0, I7000_FIELD_PROTOCOL, 0, 1},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
@@ -1898,11 +1898,11 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 6, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_LINE_SETTINGS, 3, 202},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_LINE_SETTINGS, 3, 202},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_CHOICE, 1, 0, I7000_FIELD_PROTOCOL, 0, 1},
+            {I7000_TOKEN_CODE, 1, 0, I7000_FIELD_PROTOCOL, 0, 1},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
@@ -1911,11 +1911,11 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 6, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_LINE_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_LINE_RESULT, 0, 255},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_PROTOCOL_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_PROTOCOL_RESULT, 0, 255},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
         },
@@ -1930,13 +1930,13 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 7, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_CHANNEL, 0, 19},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_CHANNEL, 0, 19},
         },
         4,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 7, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_TYPE_CODE, 0, 28},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_TYPE_CODE, 0, 28},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -1949,14 +1949,14 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 8, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_CHANNEL, 0, 19},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_TYPE_CODE, 0, 28},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_CHANNEL, 0, 19},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_TYPE_CODE, 0, 28},
         },
         5,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 8, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -1973,9 +1973,9 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 32, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_MAJOR, 0, 255},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_MINOR, 0, 255},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_BUILD, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_MAJOR, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_MINOR, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_BUILD, 0, 255},
         },
         5,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -2009,7 +2009,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 38, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -2026,7 +2026,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 41, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_SETTINGS, 0, 160},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_SETTINGS, 0, 160},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -2038,13 +2038,13 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 42, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_SETTINGS, 0, 160},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_SETTINGS, 0, 160},
         },
         3,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 42, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0DE0FF00u, I7000_ANY}},
@@ -2055,7 +2055,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 43, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_CHANNEL, 0, 143},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_CHANNEL, 0, 143},
         },
         3,
         (const i7000_token[]){
@@ -2073,14 +2073,14 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 44, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_CHANNEL, 0, 143},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_CHANNEL, 0, 143},
             {I7000_TOKEN_SIGNED, 2, 0, I7000_FIELD_OFFSET, -4096, 4096},
         },
         4,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 44, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0DE00000u, I7000_ANY}},
@@ -2097,7 +2097,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 45, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_BOOLEAN, 1, 0, I7000_FIELD_ENABLED, 0, 1},
+            {I7000_TOKEN_BOOL, 1, 0, I7000_FIELD_ENABLED, 0, 1},
         },
         3,
         (const i7000_gate[]){{0x0DE00000u, I7000_ANY}},
@@ -2110,13 +2110,13 @@ const i7000_modbus_request i7000_module_settings[17] = {
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 46, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 0, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_BOOLEAN, 1, 0, I7000_FIELD_ENABLED, 0, 1},
+            {I7000_TOKEN_BOOL, 1, 0, I7000_FIELD_ENABLED, 0, 1},
         },
         4,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 46, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0DE00000u, I7000_ANY}},
@@ -2132,7 +2132,7 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 47, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_CHOICE, 1, 0, I7000_FIELD_UPDATE, 0, 2},
+            {I7000_TOKEN_CODE, 1, 0, I7000_FIELD_UPDATE, 0, 2},
         },
         3,
         (const i7000_gate[]){{0x0C000000u, I7000_ANY}},
@@ -2143,13 +2143,13 @@ const i7000_modbus_request i7000_module_settings[17] = {
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 48, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_CHOICE, 1, 0, I7000_FIELD_UPDATE, 0, 2},
+            {I7000_TOKEN_CODE, 1, 0, I7000_FIELD_UPDATE, 0, 2},
         },
         3,
         (const i7000_token[]){
             {I7000_TOKEN_LITERAL, 1, 70, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
             {I7000_TOKEN_LITERAL, 1, 48, I7000_FIELD_NONE, I7000_NO_MINIMUM, I7000_NO_MAXIMUM},
-            {I7000_TOKEN_NUMBER, 1, 0, I7000_FIELD_RESULT, 0, 255},
+            {I7000_TOKEN_UNSIGNED, 1, 0, I7000_FIELD_RESULT, 0, 255},
         },
         3,
         (const i7000_gate[]){{0x0C000000u, I7000_ANY}},

@@ -106,7 +106,7 @@ static void model(const i7000_model *it)
 {
     text(it->name), number(it->series), number(it->has_modbus), number(it->channels), number(it->single_ended_channels);
     number(it->is_single_ended_by_command), number(it->mask_digits), number(it->mask_digits_single_ended);
-    number(it->diagnostics_digits), number(it->default_type), number(it->uses_tt), number(it->has_cjc);
+    number(it->default_type), number(it->uses_tt), number(it->has_cjc);
     number(it->has_open_wire_detection), number(it->has_fast_mode), number(it->types), number(it->later_types);
     number(it->later_types_from), number(it->individual_types_from), number(it->filter_from);
     number(it->character_formats_from);
@@ -270,10 +270,10 @@ int main(void)
     size_t exchanges = 0, readings = 0;
     CHECK(i7000_types, type, 29, 0x7E194F64u);
     CHECK(i7000_sentinels, sentinel, 27, 0xDD647A64u);
-    CHECK(i7000_models, model, 28, 0x8127FF38u);
-    CHECK(i7000_dcon_commands, dcon_command, 43, 0x07243F89u);
-    CHECK(i7000_modbus_functions, modbus_request, 8, 0x4B036420u);
-    CHECK(i7000_module_settings, modbus_request, 17, 0xC5ED85D2u);
+    CHECK(i7000_models, model, 28, 0xFC934397u);
+    CHECK(i7000_dcon_commands, dcon_command, 43, 0xB2B3CBECu);
+    CHECK(i7000_modbus_functions, modbus_request, 8, 0x3E68AC30u);
+    CHECK(i7000_module_settings, modbus_request, 17, 0x987F9E6Eu);
     CHECK(i7000_maps, map, 9, 0x4302A883u);
     CHECK(i7000_fault_names, name, 18, 0x0F1DC49Fu);
     CHECK(i7000_field_names, name, 35, 0xC4F59178u);

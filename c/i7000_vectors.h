@@ -6,8 +6,8 @@
  * _MODBUS, _READINGS, _REGISTERS or _FRAMES for all of a kind, I7000_VECTORS_ALL for everything. Then include this file
  * in the test. The arrays are static. i7000_exchange_sections and i7000_reading_sections list what is compiled.
  *
- * "A runner, in any language" in spec/README.md says what your codec has to do with each vector. The id finds it in
- * spec/vectors/, where its comment is; the erratum is explained in spec/errata.json.
+ * spec/runner.md says what your codec has to do with each vector. The id finds it in spec/vectors/, where its comment
+ * is; the erratum is explained in spec/errata.json.
  */
 #ifndef I7000_VECTORS_H
 #define I7000_VECTORS_H

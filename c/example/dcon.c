@@ -1,4 +1,4 @@
-/* Frames of DCON: "Commands and responses" in spec/README.md. */
+/* Frames of DCON: spec/dcon.md. */
 #include "common.h"
 
 unsigned codec_checksum(const uint8_t *body, size_t size)
@@ -38,21 +38,18 @@ static void widths(const i7000_part *part, const i7000_profile *profile, size_t 
     size_t count = part->kind == I7000_KIND_READINGS ? channels_of(profile) : 1;
     *least = *most = part->digits;
     switch (part->width) {
-    case I7000_WIDTH_MASK:
+    case I7000_WIDTH_MASK_DIGITS:
         *least = *most = is_single_ended(profile) ? model->mask_digits_single_ended : model->mask_digits;
         break;
-    case I7000_WIDTH_DIAGNOSTICS:
-        *least = *most = model->diagnostics_digits;
-        break;
-    case I7000_WIDTH_CHANNEL:
+    case I7000_WIDTH_CHANNEL_DIGITS:
         *least = *most = is_single_ended(profile) ? part->most_digits : part->digits;
         break;
-    case I7000_WIDTH_READING:
+    case I7000_WIDTH_READING_DIGITS:
         *least = *most = count * (is_hex_part(part, profile) ? part->digits : part->most_digits);
         if (codec_is_old(profile))
             *least = 1, *most = count * (is_hex_part(part, profile) ? 5 : part->most_digits);
         break;
-    case I7000_WIDTH_TEXT:
+    case I7000_WIDTH_LENGTH:
         *most = part->most_digits;
         break;
     default:
@@ -94,12 +91,13 @@ static misfit fit_part(const i7000_part *part, const i7000_profile *profile, con
             if (text[at] != (uint8_t)part->notation[at])
                 return (misfit){(int)at, I7000_FAULT_CHARACTER};
             break;
-        case I7000_KIND_TEXT:
+        case I7000_KIND_NAME:
+        case I7000_KIND_VERSION:
             if (codec_is_in(I7000_COMMAND_LEADERS I7000_RESPONSE_LEADERS, text[at]))
                 return (misfit){(int)at, I7000_FAULT_CHARACTER};
             break;
-        case I7000_KIND_BOOLEAN:
-        case I7000_KIND_CHOICE:
+        case I7000_KIND_BOOL:
+        case I7000_KIND_CODE:
             if (digit < 0 || digit > part->maximum)
                 return (misfit){0, I7000_FAULT_VALUE};
             number = digit;
@@ -121,7 +119,7 @@ static misfit fit_part(const i7000_part *part, const i7000_profile *profile, con
     }
     if (found.fault == I7000_FAULT_NONE && part->field != I7000_FIELD_NONE) {
         static const uint8_t KINDS[] = {CODEC_NUMBER, CODEC_NUMBER, CODEC_BOOLEAN, CODEC_NUMBER, CODEC_NUMBER,
-                                        CODEC_TENTHS, CODEC_TEXT,   CODEC_TEXT,    CODEC_TEXTS};
+                                        CODEC_TENTHS, CODEC_TEXT,   CODEC_TEXT,    CODEC_TEXT,   CODEC_TEXTS};
         codec_add(out, part->field, KINDS[part->kind], text[0] == '-' ? -number : number, text, size);
     }
     return found;

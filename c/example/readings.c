@@ -1,4 +1,4 @@
-/* Fields of channels: "Readings" in spec/README.md. */
+/* Fields of channels: spec/readings.md. */
 #include "common.h"
 
 int codec_is_old(const i7000_profile *profile)

@@ -1,4 +1,4 @@
-/* Frames of Modbus RTU: "Modbus frames" and "PDU notation" in spec/README.md. */
+/* Frames of Modbus RTU: spec/modbus.md. */
 #include "common.h"
 
 unsigned codec_crc(const uint8_t *bytes, size_t size)
@@ -35,7 +35,7 @@ static unsigned add_field(const i7000_token *token, const uint8_t *bytes, size_t
                           codec_message *out)
 {
     uint32_t number = 0;
-    unsigned kind = token->field == I7000_FIELD_NAME ? CODEC_NAME : CODEC_NUMBER, fault = I7000_FAULT_NONE;
+    unsigned kind = token->kind == I7000_TOKEN_DIGITS ? CODEC_NAME : CODEC_NUMBER, fault = I7000_FAULT_NONE;
     for (size_t at = 0; at < width && at < 4; at++)
         number = number << 8 | bytes[at];
     switch (token->kind) {
@@ -54,9 +54,9 @@ static unsigned add_field(const i7000_token *token, const uint8_t *bytes, size_t
         fault = number == 0 || number == 0xFF00 ? I7000_FAULT_NONE : I7000_FAULT_VALUE;
         number = fault != I7000_FAULT_NONE ? 2 : number == 0xFF00;
         break;
-    case I7000_TOKEN_BOOLEAN:
+    case I7000_TOKEN_BOOL:
         kind = CODEC_BOOLEAN; /* fall through */
-    case I7000_TOKEN_CHOICE:
+    case I7000_TOKEN_CODE:
         fault = number > (uint32_t)token->maximum ? I7000_FAULT_VALUE : I7000_FAULT_NONE;
         break;
     case I7000_TOKEN_SIGNED:

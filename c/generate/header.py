@@ -51,7 +51,7 @@ def _enums(spec: Spec, found: list[Table]) -> Iterator[str]:
         ("Messages of DCON; first the commands, which have the numbers of their rows.", "DCON_", constants(spec.dcon)),
         ("Messages of Modbus; first the functions, then the sub-functions.", "MODBUS_", constants(spec.modbus)),
         ("Fields of messages.", "FIELD_", constants(spec.fields)),
-        ("Why bytes are rejected; spec/README.md says when.", "FAULT_", constants(spec.faults)),
+        ("Why bytes are rejected; spec/dcon.md and spec/modbus.md say when.", "FAULT_", constants(spec.faults)),
         ("Sizes of the arrays.", "", {upper(f"{name[6:]}_size"): len(rows) for name, rows in sizes.items()}),
     ):
         yield from enum(title, f"I7000_{prefix}", values)

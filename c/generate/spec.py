@@ -60,6 +60,11 @@ class Spec:
         return numbered(row["name"] for row in self.rows("models"))
 
     @cached_property
+    def modbus_models(self) -> list[str]:
+        """The models that speak Modbus."""
+        return [row["name"] for row in self.rows("models") if "modbus" in row["protocols"]]
+
+    @cached_property
     def model_keys(self) -> list[str]:
         """The identifiers of the models."""
         return [row["key"] for row in self.rows("models")]

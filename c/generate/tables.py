@@ -11,21 +11,17 @@ __all__ = ["KINDS", "NEVER", "TOKENS", "WIDTHS", "Table", "tables"]
 NEVER = 0xFFFFFFFF
 """The firmware from which on a model has what no model has; as a last firmware, the newest."""
 _ALL_TYPES = (1 << 29) - 1
+_UNLIMITED = {"minimum": None, "maximum": None}
 _NO_LIMIT = {"minimum": -(1 << 31), "maximum": (1 << 31) - 1}
 
 # The numbers of the enumerations in the template of the header, which the self-test holds against them.
-KINDS = numbered(("LITERAL", "HEX", "BOOLEAN", "CHOICE", "SIGNED_HEX", "DECIMAL", "TEXT", "READING", "READINGS"))
-_KINDS_OF_FIELDS = {
-    "enabled": "BOOLEAN", "first_reading": "BOOLEAN", "modbus_supported": "BOOLEAN", "single_ended": "BOOLEAN",
-    "protocol": "CHOICE", "update": "CHOICE", "offset": "SIGNED_HEX", "temperature": "DECIMAL",
-    "name": "TEXT", "version": "TEXT", "value": "READING", "values": "READINGS",
-}  # fmt: skip
-"""The fields of DCON that are not numbers in hex (README.md of spec, Commands and responses)."""
-WIDTHS = numbered(("FIXED", "MASK", "DIAGNOSTICS", "CHANNEL", "READING", "TEXT"))
-_WIDTHS_OF_FIELDS = {"channel": "CHANNEL", "value": "READING", "values": "READING", "name": "TEXT", "version": "TEXT"}
+KINDS = numbered(
+    ("literal", "hex", "bool", "code", "signed_hex", "decimal", "name", "version", "reading", "readings")
+)  # fmt: skip
+WIDTHS = numbered(("fixed", "mask_digits", "channel_digits", "reading_digits", "length"))
 TOKENS = numbered(
-    ("LITERAL", "NUMBER", "SIGNED", "BOOLEAN", "CHOICE", "COIL", "MASK", "BYTES", "BITS", "WORDS", "FUNCTION")
-)
+    ("literal", "unsigned", "signed", "bool", "code", "coil", "digits", "mask", "bytes", "bits", "words", "function")
+)  # fmt: skip
 AREAS = numbered(("coil", "discrete_input", "input_register", "holding_register"))
 ACCESS = {"R": 1, "W": 2, "R/W": 3}
 REGISTER_TYPES = ("bool", "reading", "uint16", "int16", "int8", "uint32", "code", "bits", "record")
@@ -79,10 +75,10 @@ def _bits(mask: int) -> Value:
     return number(mask, f"0x{mask:08X}u")
 
 
-def _gates(models: dict[str, str | None], spec: Spec) -> Value:
+def _gates(models: dict[str, str | None] | str, spec: Spec, everyone: list[str]) -> Value:
     """Return which models have something, and from which firmware on: one gate a firmware."""
     by_firmware: dict[str | None, list[str]] = {}
-    for name, first in models.items():
+    for name, first in (dict.fromkeys(everyone) if isinstance(models, str) else models).items():
         by_firmware.setdefault(first, []).append(name)
     gates = [row(_bits(spec.mask(names)), _firmware(first)) for first, names in by_firmware.items()]
     return items(gates, "i7000_gate")
@@ -118,7 +114,6 @@ def _model(it: Record) -> Value:
         text(it["name"]), number(int(it["series"])), number("modbus" in it["protocols"]), number(it["channels"]),
         number(it["single_ended_channels"] or it["channels"]), number(it["single_ended_by_command"]),
         number(it["mask_digits"]), number(it["mask_digits_single_ended"] or it["mask_digits"]),
-        number(4 if it["name"] == "M-7019Z" else 2),
         _default_type(it["default_type"]), number(it["uses_tt"]), number(it["cjc"]),
         number(it["open_wire_detection"]), number(it["fast_mode"]),
         _bits(sum(codes.values())), _bits(sum(bit for code, bit in codes.items() if it["types"][code])),
@@ -149,8 +144,8 @@ def _command(it: Record, spec: Spec) -> Value:
     response = it["response"]
     return row(
         text(it["name"]), text(it["section"]), text(it["syntax"]), optional_text(it["response_syntax"]),
-        _message("DCON", response, spec.dcon), _parts(it["syntax"], it["fields"], spec),
-        _parts(it["response_syntax"] or "", it["response_fields"], spec), _gates(it["models"], spec),
+        _message("DCON", response, spec.dcon), _parts(it["parts"], it["fields"], spec),
+        _parts(it["response_parts"], it["response_fields"], spec), _gates(it["models"], spec, [*spec.models]),
         number(round(pause["seconds"] * 1000)), number(pause["what"] == "until done"),
         _firmware(pause["firmware_from"]), _firmware(pause["firmware_to"], none=NEVER),
     )  # fmt: skip
@@ -160,32 +155,19 @@ def _message(protocol: str, name: str | None, names: dict[str, int]) -> Value:
     return number(0xFF, "I7000_NO_MESSAGE") if name is None else _enum(protocol, name, names[name])
 
 
-def _parts(syntax: str, fields: list[Record], spec: Spec) -> Value:
-    """Return a syntax as parts: literal characters, and fields in their places.
-
-    The notation of a field occurs once behind the leading character, and the last possible place is its own: the S of
-    ``@AASN`` is a letter, N the field.
-    """
-    parts: list[Value] = []
-    at = 0
-    for it in fields:
-        place = syntax.rindex(it["notation"], at) if it["name"] != "address" else syntax.index("AA", at)
-        if place > at:
-            parts.append(_part(syntax[at:place], "none", "LITERAL", {"minimum": None, "maximum": None}, spec))
-        parts.append(_part(it["notation"], it["name"], _KINDS_OF_FIELDS.get(it["name"], "HEX"), it, spec))
-        at = place + len(it["notation"])
-    if at < len(syntax):
-        parts.append(_part(syntax[at:], "none", "LITERAL", {"minimum": None, "maximum": None}, spec))
-    return items(parts, "i7000_part")
+def _parts(parts: list[Record], fields: list[Record], spec: Spec) -> Value:
+    by_name = {it["name"]: it for it in fields}
+    return items([_part(it, by_name.get(it["field"]), spec) for it in parts], "i7000_part")
 
 
-def _part(notation: str, name: str, kind: str, it: Record, spec: Spec) -> Value:
-    digits = it.get("digits", len(notation))
-    several = digits if isinstance(digits, list) else [digits]
-    width = _WIDTHS_OF_FIELDS.get(name, "DIAGNOSTICS" if notation == "NN" else "MASK") if len(several) > 1 else "FIXED"
+def _part(it: Record, field: Record | None, spec: Spec) -> Value:
+    """Return a part of a body; `field` is its field, None for literal characters."""
+    field = field or {"notation": it["literal"], "digits": it["width"], "digits_by": None} | _UNLIMITED
+    digits = field["digits"] if isinstance(field["digits"], list) else [field["digits"]]
+    name, width = it["field"] or "none", field["digits_by"] or "fixed"
     return row(
-        text(notation), _enum("FIELD", name, spec.fields[name]), _enum("KIND", kind, KINDS[kind]),
-        _enum("WIDTH", width, WIDTHS[width]), number(min(several)), number(max(several)), *_limits(it),
+        text(field["notation"]), _enum("FIELD", name, spec.fields[name]), _enum("KIND", it["kind"], KINDS[it["kind"]]),
+        _enum("WIDTH", width, WIDTHS[width]), number(min(digits)), number(max(digits)), *_limits(field),
     )  # fmt: skip
 
 
@@ -195,42 +177,37 @@ def _part(notation: str, name: str, kind: str, it: Record, spec: Spec) -> Value:
 def _request(it: Record, spec: Spec) -> Value:
     function = it.get("function", "46")
     sub_function = it.get("sub_function")
-    fields, response_fields = it.get("fields", []), it.get("response_fields", [])
     return row(
         text(it["name"]), text(it["section"]), number(int(function, 16), f"0x{function}"),
         number(int(sub_function, 16), f"0x{sub_function}") if sub_function else number(0xFF, "I7000_NO_SUB_FUNCTION"),
         number(it.get("broadcast", False)), number(it.get("minimum_count") or 0),
         number(it.get("maximum_count") or 0),
         _message("MODBUS", it["response_name"], spec.modbus), text(it["request"]), text(it["response"]),
-        _tokens(it["request"], fields, spec), _tokens(it["response"], response_fields, spec),
-        _gates(it["models"], spec),
+        _tokens(it["request"], it["fields"], spec), _tokens(it["response"], it["response_fields"], spec),
+        _gates(it["models"], spec, spec.modbus_models),
     )  # fmt: skip
 
 
 def _tokens(pdu: str, fields: list[Record], spec: Spec) -> Value:
     by_name = {it["name"]: it for it in fields}
-    return items([_token(token, by_name, pdu, spec) for token in pdu.split()], "i7000_token")
+    return items([_token(token, by_name, spec) for token in pdu.split()], "i7000_token")
 
 
-def _token(token: str, fields: dict[str, Record], pdu: str, spec: Spec) -> Value:
+def _token(token: str, fields: dict[str, Record], spec: Spec) -> Value:
     name = field_of(token)
-    _, _, size = token.partition(":")
-    if token == "bytes":  # noqa: S105 - of a PDU
-        kind, size = "BYTES", "1"
-    elif name is None:
-        kind = "LITERAL"
-    elif size in ("bits", "words", "mask"):
-        kind, size = size.upper(), "0"
+    size = token.partition(":")[2]
+    counted = {"kind": "unsigned", "bytes": int(size) if size.isdigit() else 1, "bytes_by": None} | _UNLIMITED
+    field = fields.get(name or "", counted)  # the count of a write is the number of its values, and no field
+    if name is None:
+        kind = "bytes" if token == "bytes" else "literal"  # noqa: S105 - of a PDU
     elif token.endswith("+80"):
-        kind = "FUNCTION"
-    elif name == "value" and pdu.startswith("05"):
-        kind = "COIL"
+        kind = "function"
     else:
-        kind = {"offset": "SIGNED", "enabled": "BOOLEAN", "protocol": "CHOICE", "update": "CHOICE"}.get(name, "NUMBER")
-    limits = fields.get(name or "", {"minimum": None, "maximum": None})
+        kind = "mask" if field["bytes_by"] else field["kind"]
+    width = field["bytes"] if isinstance(field["bytes"], int) else 0
     return row(
-        _enum("TOKEN", kind, TOKENS[kind]), number(int(size or 1)), number(int(token, 16) if kind == "LITERAL" else 0),
-        _enum("FIELD", name or "none", spec.fields[name or "none"]), *_limits(limits),
+        _enum("TOKEN", kind, TOKENS[kind]), number(width), number(int(token, 16) if kind == "literal" else 0),
+        _enum("FIELD", name or "none", spec.fields[name or "none"]), *_limits(field),
     )  # fmt: skip
 
 

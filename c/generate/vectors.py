@@ -186,7 +186,9 @@ def _field(name: str, value: object, folder: str, spec: Spec) -> Value:
     """Return a field with what it has alone, the rest being zero."""
     field = _enum("FIELD", spec.fields, name)
     parts = {"number": number(0), "text": optional_text(None), "texts": items([], ""), "words": items([], "")}
-    if isinstance(value, str) and folder == "modbus":
+    if isinstance(value, str) and name == "values":
+        key, found = "words", items([number(int(bit)) for bit in value], "uint16_t")
+    elif isinstance(value, str) and folder == "modbus":
         key, found = "number", number(int(value, 16), f"0x{value}")
     elif isinstance(value, str):
         key, found = "text", text(value)

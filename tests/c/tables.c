@@ -50,10 +50,10 @@ int main(void)
     }
     for (size_t at = 0; at < I7000_MODELS_SIZE; at++) {
         const i7000_model *it = &i7000_models[at];
-        printf("model\t%s\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%02X\t%d\t%d\t%d\t%d\t%08" PRIX32 "\t%08" PRIX32 "\t%06" PRIX32
+        printf("model\t%s\t%d\t%d\t%d\t%d\t%d\t%d\t%d\t%02X\t%d\t%d\t%d\t%d\t%08" PRIX32 "\t%08" PRIX32 "\t%06" PRIX32
                "\t%06" PRIX32 "\t%06" PRIX32 "\t%06" PRIX32 "\n",
                it->name, it->series, it->has_modbus, it->channels, it->single_ended_channels,
-               it->is_single_ended_by_command, it->mask_digits, it->mask_digits_single_ended, it->diagnostics_digits,
+               it->is_single_ended_by_command, it->mask_digits, it->mask_digits_single_ended,
                it->default_type, it->uses_tt, it->has_cjc, it->has_open_wire_detection, it->has_fast_mode, it->types,
                it->later_types, it->later_types_from, it->individual_types_from, it->filter_from,
                it->character_formats_from);

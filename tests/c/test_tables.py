@@ -72,7 +72,7 @@ def test_models_have_their_columns(printed: Printed) -> None:
         texts(
             it["name"], it["series"], "modbus" in it["protocols"], it["channels"],
             it["single_ended_channels"] or it["channels"], it["single_ended_by_command"], it["mask_digits"],
-            it["mask_digits_single_ended"] or it["mask_digits"], 4 if it["name"] == "M-7019Z" else 2,
+            it["mask_digits_single_ended"] or it["mask_digits"],
             it["default_type"] or "FF", it["uses_tt"], it["cjc"], it["open_wire_detection"], it["fast_mode"],
             bits(it["types"]), bits(code for code, first in it["types"].items() if first),
             number(next(filter(None, it["types"].values()), None)), first_of(it["individually_configurable"]),

@@ -10,7 +10,7 @@
  * and the tables are defined there. Compile that file with -fdata-sections and link with --gc-sections: tables that you
  * do not use take no memory. Nothing here allocates, and nothing is code, but for two inline functions.
  *
- * Sections (2.10) are those of the vendor manual, revision B3.6. spec/README.md explains every word used here.
+ * Sections (2.10) are those of the vendor manual, revision B3.6. spec/README.md and its pages explain the words.
  */
 #ifndef I7000_H
 #define I7000_H
@@ -70,38 +70,39 @@ enum {
 enum {
     I7000_KIND_LITERAL = 0,    /* those of the notation */
     I7000_KIND_HEX = 1,        /* upper-case hex digits */
-    I7000_KIND_BOOLEAN = 2,    /* 0 or 1; anything else has the fault VALUE */
-    I7000_KIND_CHOICE = 3,     /* a digit from 0 to maximum; anything else has the fault VALUE */
+    I7000_KIND_BOOL = 2,       /* 0 or 1; anything else has the fault VALUE */
+    I7000_KIND_CODE = 3,       /* a digit from 0 to maximum; anything else has the fault VALUE */
     I7000_KIND_SIGNED_HEX = 4, /* a sign and four upper-case hex digits */
     I7000_KIND_DECIMAL = 5,    /* a sign and five digits, a point before the last */
-    I7000_KIND_TEXT = 6,       /* 20h to 7Eh without the eight leading characters */
-    I7000_KIND_READING = 7,    /* the field of one channel */
-    I7000_KIND_READINGS = 8,   /* the fields of all channels */
+    I7000_KIND_NAME = 6,       /* 20h to 7Eh without the eight leading characters */
+    I7000_KIND_VERSION = 7,    /* the same; a letter, a digit, a point, one or two digits */
+    I7000_KIND_READING = 8,    /* the field of one channel */
+    I7000_KIND_READINGS = 9,   /* the fields of all channels */
 };
 
 /* What decides how many characters a part has. */
 enum {
-    I7000_WIDTH_FIXED = 0,       /* nothing: `digits` */
-    I7000_WIDTH_MASK = 1,        /* the model and single-ended inputs: mask_digits... */
-    I7000_WIDTH_DIAGNOSTICS = 2, /* the model: diagnostics_digits */
-    I7000_WIDTH_CHANNEL = 3,     /* most_digits with single-ended inputs by command, else `digits` */
-    I7000_WIDTH_READING = 4,     /* `digits` a channel in hex, else most_digits */
-    I7000_WIDTH_TEXT = 5,        /* any number from `digits` to most_digits */
+    I7000_WIDTH_FIXED = 0,          /* nothing: `digits`; of READINGS, so many a channel */
+    I7000_WIDTH_MASK_DIGITS = 1,    /* the model and single-ended inputs: mask_digits... */
+    I7000_WIDTH_CHANNEL_DIGITS = 2, /* most_digits with single-ended inputs by command, else `digits` */
+    I7000_WIDTH_READING_DIGITS = 3, /* `digits` a channel in hex, else most_digits */
+    I7000_WIDTH_LENGTH = 4,         /* any number from `digits` to most_digits */
 };
 
 /* What the bytes of a token are. */
 enum {
-    I7000_TOKEN_LITERAL = 0,  /* `value` */
-    I7000_TOKEN_NUMBER = 1,   /* a number, high byte first */
-    I7000_TOKEN_SIGNED = 2,   /* the same in two's complement */
-    I7000_TOKEN_BOOLEAN = 3,  /* 0 or 1 */
-    I7000_TOKEN_CHOICE = 4,   /* 0 to maximum */
-    I7000_TOKEN_COIL = 5,     /* FF00 is 1, 0000 is 0 */
-    I7000_TOKEN_MASK = 6,     /* (channels + 7) / 8 bytes */
-    I7000_TOKEN_BYTES = 7,    /* how many bytes follow */
-    I7000_TOKEN_BITS = 8,     /* count / 8 bytes, rounded up; the first bit is bit 0 of the first byte */
-    I7000_TOKEN_WORDS = 9,    /* count words */
-    I7000_TOKEN_FUNCTION = 10, /* the function of the request with bit 7 set */
+    I7000_TOKEN_LITERAL = 0,   /* `value` */
+    I7000_TOKEN_UNSIGNED = 1,  /* a number, high byte first */
+    I7000_TOKEN_SIGNED = 2,    /* the same in two's complement */
+    I7000_TOKEN_BOOL = 3,      /* 0 or 1 */
+    I7000_TOKEN_CODE = 4,      /* 0 to maximum */
+    I7000_TOKEN_COIL = 5,      /* FF00 is 1, 0000 is 0 */
+    I7000_TOKEN_DIGITS = 6,    /* hex digits, two a byte */
+    I7000_TOKEN_MASK = 7,      /* (channels + 7) / 8 bytes */
+    I7000_TOKEN_BYTES = 8,     /* how many bytes follow */
+    I7000_TOKEN_BITS = 9,      /* count / 8 bytes, rounded up; the first bit is bit 0 of the first byte */
+    I7000_TOKEN_WORDS = 10,    /* count words */
+    I7000_TOKEN_FUNCTION = 11, /* the function of the request with bit 7 set */
 };
 
 /* Areas of a map: function 01, 02, 04 and 03 read them. */
@@ -179,7 +180,6 @@ typedef struct i7000_model {
     uint8_t is_single_ended_by_command;
     uint8_t mask_digits;
     uint8_t mask_digits_single_ended;
-    uint8_t diagnostics_digits; /* of the response to $AAB */
     uint8_t default_type; /* I7000_NO_TYPE: the manual names none */
     uint8_t uses_tt; /* TT of %AANNTTCCFF sets the type of all channels */
     uint8_t has_cjc;

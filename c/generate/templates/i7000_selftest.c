@@ -106,7 +106,7 @@ static void model(const i7000_model *it)
 {
     text(it->name), number(it->series), number(it->has_modbus), number(it->channels), number(it->single_ended_channels);
     number(it->is_single_ended_by_command), number(it->mask_digits), number(it->mask_digits_single_ended);
-    number(it->diagnostics_digits), number(it->default_type), number(it->uses_tt), number(it->has_cjc);
+    number(it->default_type), number(it->uses_tt), number(it->has_cjc);
     number(it->has_open_wire_detection), number(it->has_fast_mode), number(it->types), number(it->later_types);
     number(it->later_types_from), number(it->individual_types_from), number(it->filter_from);
     number(it->character_formats_from);
