@@ -118,6 +118,17 @@ static i7000_profile profile_of(const char *record)
     return profile;
 }
 
+/* How many bits a text has, or how many words a list. */
+static int32_t count_of(const char *value)
+{
+    int32_t count = 0;
+    if (*value == '"')
+        return (int32_t)(skip(value) - value - 2);
+    for (const char *item = blank(value + 1); *item != ']'; item = blank(skip(item)))
+        count++;
+    return count;
+}
+
 /* The message that was sent: its numbers, and how many values it has. */
 static codec_message message_of(const char *record, const char *const *names, size_t count)
 {
@@ -127,10 +138,9 @@ static codec_message message_of(const char *record, const char *const *names, si
         codec_field *field = &message.fields[message.count++];
         field->field = (uint8_t)find_name(i7000_field_names, I7000_FIELD_NAMES_SIZE, at);
         field->number = *value == 't' ? 1 : (int32_t)strtol(value, NULL, 10);
-        if (*value == '[') {
+        if (field->field == I7000_FIELD_VALUES) {
             field->field = I7000_FIELD_COUNT;
-            for (const char *item = blank(value + 1); *item != ']'; item = blank(skip(item)))
-                field->number++;
+            field->number = count_of(value);
         }
         at = blank(skip(value));
     }
@@ -188,14 +198,14 @@ static void put_field(const codec_message *message, const codec_field *it, const
         printf("\"%08lx\"", (unsigned long)(uint32_t)it->number);
         break;
     case CODEC_BITS:
+        putchar('"');
+        for (int32_t at = 0; at < it->number; at++)
+            putchar((it->text[at / 8] >> at % 8 & 1) != 0 ? '1' : '0');
+        putchar('"');
+        break;
     case CODEC_WORDS:
-        for (int32_t at = 0; at < it->number; at++) {
-            putchar(at == 0 ? '[' : ',');
-            if (it->kind == CODEC_BITS)
-                printf((it->text[at / 8] >> at % 8 & 1) != 0 ? "true" : "false");
-            else
-                printf("%d", it->text[2 * at] << 8 | it->text[2 * at + 1]);
-        }
+        for (int32_t at = 0; at < it->number; at++)
+            printf("%c%d", at == 0 ? '[' : ',', it->text[2 * at] << 8 | it->text[2 * at + 1]);
         putchar(']');
         break;
     default:
