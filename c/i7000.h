@@ -7,8 +7,8 @@
  *     #define I7000_DEFINE_TABLES
  *     #include "i7000.h"
  *
- * and the tables are defined there. Compile that file with -fdata-sections and link with --gc-sections: tables that you
- * do not use take no memory. Nothing here allocates, and nothing is code, but for two inline functions.
+ * and the tables are defined there. Compile that file with -fdata-sections and link with --gc-sections, and tables that
+ * you do not use take no memory, apart from their names. Nothing here allocates. Only two inline functions are code.
  *
  * Sections (2.10) are those of the vendor manual, revision B3.6. spec/README.md and its pages explain the words.
  */

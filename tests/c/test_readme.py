@@ -46,3 +46,14 @@ def test_its_snippets_compile(tmp_path: Path) -> None:
         f"int main(void)\n{{\n{loop}    return 0;\n}}\n".replace("/* your_decode", "(void)vector; /* your_decode")
     )
     compile_c("gcc", source, "-o", tmp_path / "snippets")
+
+
+def test_a_program_has_only_the_tables_that_it_uses(tmp_path: Path) -> None:
+    source, built = tmp_path / "one.c", tmp_path / "one"
+    source.write_text('#include "i7000.h"\nint main(void) { return i7000_types[I7000_TYPE_K].decimals; }\n')
+    options = ("-Os", "-fno-pie", "-no-pie", "-fdata-sections", "-Wl,--gc-sections")
+    compile_c("gcc", *options, source, C / "example" / "tables.c", "-o", built)
+
+    symbols = output_of(program("nm"), built)
+    assert "i7000_types" in symbols
+    assert "i7000_maps" not in symbols
