@@ -10629,7 +10629,7 @@ static const i7000_profile i7000_profiles_dcon_2_23[3] = {
         {8, 8, 8, 8, 8, 8, 8, 8},
     },
 };
-static const i7000_exchange i7000_vectors_dcon_2_23[25] = {
+static const i7000_exchange i7000_vectors_dcon_2_23[26] = {
     {
         "dcon-2.23-manual-1", "2.23", NULL, &i7000_profiles_dcon_2_23[0], I7000_OUTCOME_RESPONSE, I7000_FAULT_NONE,
         I7000_SOURCE_MANUAL, 0, I7000_WIRE("$01F\r"),
@@ -10875,6 +10875,16 @@ static const i7000_exchange i7000_vectors_dcon_2_23[25] = {
             1,
         },
         I7000_WIRE("!01\r"), NULL,
+    },
+    {
+        "dcon-2.23-response-short-of-another-address", "2.23", NULL, &i7000_profiles_dcon_2_23[0], I7000_OUTCOME_REJECT,
+        I7000_FAULT_LENGTH, I7000_SOURCE_DERIVED, 0, I7000_WIRE("$01F\r"),
+        &(const i7000_vector_message){
+            I7000_DCON_READ_FIRMWARE_VERSION,
+            (const i7000_vector_field[]){{.field = I7000_FIELD_ADDRESS, .number = 1}},
+            1,
+        },
+        I7000_WIRE("!02B2\r"), NULL,
     },
     {
         "dcon-2.23-response-lower-case-letter", "2.23", "E122", &i7000_profiles_dcon_2_23[0], I7000_OUTCOME_REJECT,
@@ -39983,7 +39993,7 @@ static const i7000_profile i7000_profiles_modbus_46_25[9] = {
         {8, 8, 8, 8, 8, 8, 8, 8, 8, 8},
     },
 };
-static const i7000_exchange i7000_vectors_modbus_46_25[29] = {
+static const i7000_exchange i7000_vectors_modbus_46_25[31] = {
     {
         "modbus-46-25-all-eight", "3.3.8", NULL, &i7000_profiles_modbus_46_25[0], I7000_OUTCOME_RESPONSE,
         I7000_FAULT_NONE, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x25\xd3\xbb"),
@@ -40186,6 +40196,16 @@ static const i7000_exchange i7000_vectors_modbus_46_25[29] = {
         I7000_WIRE("\x01\x46\x25\x03\xff\x5d\xf3"), NULL,
     },
     {
+        "modbus-46-25-bit-beyond-the-channels", "3.3.8", NULL, &i7000_profiles_modbus_46_25[3], I7000_OUTCOME_REJECT,
+        I7000_FAULT_RESERVED, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x25\xd3\xbb"),
+        &(const i7000_vector_message){
+            I7000_MODBUS_READ_CHANNEL_MASK,
+            (const i7000_vector_field[]){{.field = I7000_FIELD_ADDRESS, .number = 1}},
+            1,
+        },
+        I7000_WIRE("\x01\x46\x25\x07\xff\x5f\x33"), NULL,
+    },
+    {
         "modbus-46-25-response-of-another-sub-function", "3.3.8", NULL, &i7000_profiles_modbus_46_25[0],
         I7000_OUTCOME_REJECT, I7000_FAULT_SUB_FUNCTION, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x25\xd3\xbb"),
         &(const i7000_vector_message){
@@ -40235,6 +40255,16 @@ static const i7000_exchange i7000_vectors_modbus_46_25[29] = {
             1,
         },
         I7000_WIRE("\x01\x46\x25\xff\xba\xdc"), NULL,
+    },
+    {
+        "modbus-46-25-response-of-four-bytes-bad-crc", "3.3.8", NULL, &i7000_profiles_modbus_46_25[0],
+        I7000_OUTCOME_REJECT, I7000_FAULT_LENGTH, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x25\xd3\xbb"),
+        &(const i7000_vector_message){
+            I7000_MODBUS_READ_CHANNEL_MASK,
+            (const i7000_vector_field[]){{.field = I7000_FIELD_ADDRESS, .number = 1}},
+            1,
+        },
+        I7000_WIRE("\x01\x46\x25\xd3"), NULL,
     },
     {
         "modbus-46-25-response-of-another-address", "3.3.8", NULL, &i7000_profiles_modbus_46_25[0],
@@ -40753,7 +40783,7 @@ static const i7000_profile i7000_profiles_modbus_46_29[4] = {
         {13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13, 13},
     },
 };
-static const i7000_exchange i7000_vectors_modbus_46_29[23] = {
+static const i7000_exchange i7000_vectors_modbus_46_29[24] = {
     {
         "modbus-46-29-default", "3.3.10", NULL, &i7000_profiles_modbus_46_29[0], I7000_OUTCOME_RESPONSE,
         I7000_FAULT_NONE, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x29\xd3\xbe"),
@@ -40963,6 +40993,16 @@ static const i7000_exchange i7000_vectors_modbus_46_29[23] = {
             1,
         },
         I7000_WIRE("\x01\x46\x29\x00\x00\xdd\x40"), NULL,
+    },
+    {
+        "modbus-46-29-response-reserved-bit", "3.3.10", NULL, &i7000_profiles_modbus_46_29[0], I7000_OUTCOME_REJECT,
+        I7000_FAULT_RESERVED, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x29\xd3\xbe"),
+        &(const i7000_vector_message){
+            I7000_MODBUS_READ_MISCELLANEOUS_SETTINGS,
+            (const i7000_vector_field[]){{.field = I7000_FIELD_ADDRESS, .number = 1}},
+            1,
+        },
+        I7000_WIRE("\x01\x46\x29\x01\x3e\x5d"), NULL,
     },
     {
         "modbus-46-29-exception-of-another-function", "3.3.10", NULL, &i7000_profiles_modbus_46_29[0],
@@ -41450,7 +41490,7 @@ static const i7000_profile i7000_profiles_modbus_46_2b[4] = {
         {8, 8, 8, 8, 8, 8, 8, 8},
     },
 };
-static const i7000_exchange i7000_vectors_modbus_46_2b[29] = {
+static const i7000_exchange i7000_vectors_modbus_46_2b[30] = {
     {
         "modbus-46-2B-module-zero", "3.3.12", NULL, &i7000_profiles_modbus_46_2b[0], I7000_OUTCOME_RESPONSE,
         I7000_FAULT_NONE, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x2b\x00\xfe\xfd"),
@@ -41831,6 +41871,19 @@ static const i7000_exchange i7000_vectors_modbus_46_2b[29] = {
             2,
         },
         I7000_WIRE("\x01\x46\x2b\x00\x00\x00\x81\xe1"), NULL,
+    },
+    {
+        "modbus-46-2B-response-high-byte-of-a-channel", "3.3.12", NULL, &i7000_profiles_modbus_46_2b[0],
+        I7000_OUTCOME_REJECT, I7000_FAULT_RESERVED, I7000_SOURCE_DERIVED, 0, I7000_WIRE("\x01\x46\x2b\x80\xff\x5d"),
+        &(const i7000_vector_message){
+            I7000_MODBUS_READ_CJC_OFFSET,
+            (const i7000_vector_field[]){
+                {.field = I7000_FIELD_ADDRESS, .number = 1},
+                {.field = I7000_FIELD_CHANNEL, .number = 128},
+            },
+            2,
+        },
+        I7000_WIRE("\x01\x46\x2b\x01\x05\xbd\x13"), NULL,
     },
     {
         "modbus-46-2B-exception-of-another-function", "3.3.12", NULL, &i7000_profiles_modbus_46_2b[0],
@@ -48324,7 +48377,7 @@ static const i7000_split_vector i7000_vectors_frames_rtu_split[79] = {
 #endif
 
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_READINGS) || defined(I7000_VECTORS_READINGS_PERCENT)
-static const i7000_reading_vector i7000_vectors_readings_percent[479] = {
+static const i7000_reading_vector i7000_vectors_readings_percent[480] = {
     {
         "reading-percent-00-maximum", "1.11", NULL, I7000_SOURCE_MANUAL, 0, 0x00, I7000_FORMAT_PERCENT,
         I7000_READ | I7000_WRITE, I7000_STATUS_OK, I7000_FAULT_NONE, "+100.00", 15.0,
@@ -49384,6 +49437,10 @@ static const i7000_reading_vector i7000_vectors_readings_percent[479] = {
     {
         "reading-percent-0F-under-range", "1.11", "E48", I7000_SOURCE_MANUAL, 0, 0x0F, I7000_FORMAT_PERCENT,
         I7000_READ | I7000_WRITE, I7000_STATUS_UNDER_RANGE, I7000_FAULT_NONE, "-999.99", 0.0,
+    },
+    {
+        "reading-percent-0F-under-range-of-the-other-format", "1.11", "E48", I7000_SOURCE_DERIVED, 0, 0x0F,
+        I7000_FORMAT_PERCENT, I7000_READ, I7000_STATUS_UNDER_RANGE, I7000_FAULT_NONE, "-9999.9", 0.0,
     },
     {
         "reading-percent-0F-disabled", "1.11", "E25", I7000_SOURCE_ASSUMED, 0, 0x0F, I7000_FORMAT_PERCENT,
@@ -52196,7 +52253,7 @@ static const i7000_register_vector i7000_vectors_registers_readings[77] = {
 #endif
 
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_READINGS) || defined(I7000_VECTORS_READINGS_ENGINEERING)
-static const i7000_reading_vector i7000_vectors_readings_engineering[524] = {
+static const i7000_reading_vector i7000_vectors_readings_engineering[525] = {
     {
         "reading-engineering-00-maximum", "1.11", NULL, I7000_SOURCE_MANUAL, 0, 0x00, I7000_FORMAT_ENGINEERING,
         I7000_READ | I7000_WRITE, I7000_STATUS_OK, I7000_FAULT_NONE, "+15.000", 15.0,
@@ -53354,6 +53411,10 @@ static const i7000_reading_vector i7000_vectors_readings_engineering[524] = {
         I7000_READ | I7000_WRITE, I7000_STATUS_OVER_RANGE, I7000_FAULT_NONE, "+9999.9", 0.0,
     },
     {
+        "reading-engineering-0F-over-range-of-the-other-format", "1.11", "E48", I7000_SOURCE_DERIVED, 0, 0x0F,
+        I7000_FORMAT_ENGINEERING, I7000_READ, I7000_STATUS_OVER_RANGE, I7000_FAULT_NONE, "+999.99", 0.0,
+    },
+    {
         "reading-engineering-0F-under-range", "1.11", "E48", I7000_SOURCE_MANUAL, 0, 0x0F, I7000_FORMAT_ENGINEERING,
         I7000_READ | I7000_WRITE, I7000_STATUS_UNDER_RANGE, I7000_FAULT_NONE, "-9999.9", 0.0,
     },
@@ -54365,7 +54426,7 @@ static const i7000_exchange_section i7000_exchange_sections[] = {
     {"dcon/2.22-read-diagnostics.json", 0, i7000_vectors_dcon_2_22, 26},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_DCON) || defined(I7000_VECTORS_DCON_2_23)
-    {"dcon/2.23-read-firmware-version.json", 0, i7000_vectors_dcon_2_23, 25},
+    {"dcon/2.23-read-firmware-version.json", 0, i7000_vectors_dcon_2_23, 26},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_DCON) || defined(I7000_VECTORS_DCON_2_24)
     {"dcon/2.24-read-module-name.json", 0, i7000_vectors_dcon_2_24, 36},
@@ -54500,19 +54561,19 @@ static const i7000_exchange_section i7000_exchange_sections[] = {
     {"modbus/46-20-read-firmware-version.json", 1, i7000_vectors_modbus_46_20, 21},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_25)
-    {"modbus/46-25-read-channel-mask.json", 1, i7000_vectors_modbus_46_25, 29},
+    {"modbus/46-25-read-channel-mask.json", 1, i7000_vectors_modbus_46_25, 31},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_26)
     {"modbus/46-26-set-channel-mask.json", 1, i7000_vectors_modbus_46_26, 28},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_29)
-    {"modbus/46-29-read-miscellaneous-settings.json", 1, i7000_vectors_modbus_46_29, 23},
+    {"modbus/46-29-read-miscellaneous-settings.json", 1, i7000_vectors_modbus_46_29, 24},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_2A)
     {"modbus/46-2A-set-miscellaneous-settings.json", 1, i7000_vectors_modbus_46_2a, 27},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_2B)
-    {"modbus/46-2B-read-cjc-offset.json", 1, i7000_vectors_modbus_46_2b, 29},
+    {"modbus/46-2B-read-cjc-offset.json", 1, i7000_vectors_modbus_46_2b, 30},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_MODBUS) || defined(I7000_VECTORS_MODBUS_46_2C)
     {"modbus/46-2C-set-cjc-offset.json", 1, i7000_vectors_modbus_46_2c, 30},
@@ -54539,13 +54600,13 @@ static const i7000_reading_section i7000_reading_sections[] = {
     {"readings/hex.json", i7000_vectors_readings_hex, 292},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_READINGS) || defined(I7000_VECTORS_READINGS_PERCENT)
-    {"readings/percent.json", i7000_vectors_readings_percent, 479},
+    {"readings/percent.json", i7000_vectors_readings_percent, 480},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_READINGS) || defined(I7000_VECTORS_READINGS_REJECTED)
     {"readings/rejected.json", i7000_vectors_readings_rejected, 36},
 #endif
 #if defined(I7000_VECTORS_ALL) || defined(I7000_VECTORS_READINGS) || defined(I7000_VECTORS_READINGS_ENGINEERING)
-    {"readings/engineering.json", i7000_vectors_readings_engineering, 524},
+    {"readings/engineering.json", i7000_vectors_readings_engineering, 525},
 #endif
     {NULL, NULL, 0},
 };
