@@ -12,7 +12,7 @@ LINT = (("ruff", "check", "."), ("ruff", "format", "--check", "."))
 SPEC = ("tests.spec.lint",)
 FULL = (
     *LINT,
-    ("mypy", "src", "tests", "fuzz", "c"),
+    ("mypy", "src", "tests", "fuzz", "c", "wireshark"),
     ("pytest", "--numprocesses=auto", "--dist=worksteal", "--cov", "--cov-report=term"),
 )
 # No processes, no other programs, nothing measured: every vector of `spec/`, and few examples of each property.

@@ -1,7 +1,7 @@
 """The bytes of a capture file of a serial line (pcapng), as Wireshark reads it.
 
-DCON is an interface with link type 148 (USER1), Modbus RTU one with link type 147 (USER0); in Wireshark, `Preferences,
-Protocols, DLT_USER` says which dissector they have. Directions are in the packet flags: outbound is what hosts send.
+DCON is an interface with link type 148 (USER1), Modbus RTU one with link type 147 (USER0); the dissector in the folder
+``wireshark`` takes both. Directions are in the packet flags: outbound is what hosts send.
 `i7000.dissect.capture` reads such files.
 """
 

@@ -1,0 +1,5 @@
+-- The I-7000 and M-7000 analog input modules in Wireshark: DCON, and what the modules mean by Modbus.
+--
+-- Generated from spec/ by: python -m wireshark.generate
+-- Install: copy this file into the folder that Help, About Wireshark, Folders names Personal Lua Plugins.
+-- wireshark/README.md explains preferences and fields. Wireshark 4.0 or later. MIT licence.
