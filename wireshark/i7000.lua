@@ -1586,6 +1586,7 @@ local DCON_COMMANDS = {
                 name = "values",
                 kind = "readings",
                 meaning = "one field a channel, as sent: 7 characters each in engineering and % format, 4 in hex; blanks for a disabled channel of the 7019 series",
+                offset = 1,
                 digits = { 4, 7 },
                 digits_by = "reading_digits",
             },
@@ -1616,6 +1617,7 @@ local DCON_COMMANDS = {
                 maximum = 19,
                 meaning = "channel, from 0; one digit, two on a 7017Z in single-ended mode",
                 legal = "channels",
+                offset = 3,
                 digits = { 1, 2 },
                 digits_by = "channel_digits",
             },
@@ -1626,6 +1628,7 @@ local DCON_COMMANDS = {
                 name = "value",
                 kind = "reading",
                 meaning = "the field of the channel, as sent: 7 characters in engineering and % format, 4 in hex; blanks for a disabled channel of the 7019 series",
+                offset = 1,
                 digits = { 4, 7 },
                 digits_by = "reading_digits",
             },
@@ -2081,6 +2084,7 @@ local DCON_COMMANDS = {
                 name = "values",
                 kind = "readings",
                 meaning = "one field a channel, as sent: 7 characters each in engineering and % format, 4 in hex; blanks for a disabled channel of the 7019 series",
+                offset = 4,
                 digits = { 4, 7 },
                 digits_by = "reading_digits",
             },
@@ -2113,6 +2117,7 @@ local DCON_COMMANDS = {
                 maximum = 1048575,
                 meaning = "bit n is 1 where channel n is enabled; width and channels by model and connecting mode, see models.json",
                 legal = "channel_bits",
+                offset = 4,
                 digits = { 2, 4, 6 },
                 digits_by = "mask_digits",
             },
@@ -2166,6 +2171,7 @@ local DCON_COMMANDS = {
                 maximum = 1048575,
                 meaning = "bit n is 1 where channel n is enabled; width and channels by model and connecting mode, see models.json",
                 legal = "channel_bits",
+                offset = 3,
                 digits = { 2, 4, 6 },
                 digits_by = "mask_digits",
             },
@@ -2197,6 +2203,7 @@ local DCON_COMMANDS = {
                 maximum = 19,
                 meaning = "channel, from 0; one digit, two on a 7017Z in single-ended mode",
                 legal = "channels",
+                offset = 5,
                 digits = { 1, 2 },
                 digits_by = "channel_digits",
             },
@@ -2264,6 +2271,7 @@ local DCON_COMMANDS = {
                 maximum = 19,
                 meaning = "channel, from 0; one digit, two on a 7017Z in single-ended mode",
                 legal = "channels",
+                offset = 5,
                 digits = { 1, 2 },
                 digits_by = "channel_digits",
             },
@@ -2286,6 +2294,7 @@ local DCON_COMMANDS = {
                 maximum = 19,
                 meaning = "channel, from 0; one digit, two on a 7017Z in single-ended mode",
                 legal = "channels",
+                offset = 4,
                 digits = { 1, 2 },
                 digits_by = "channel_digits",
             },
@@ -2450,7 +2459,12 @@ local DCON_COMMANDS = {
         },
         response_parts = {
             { literal = ">", width = 1 },
-            { name = "values", kind = "readings", meaning = "one field a channel, as sent, 4 characters each" },
+            {
+                name = "values",
+                kind = "readings",
+                meaning = "one field a channel, as sent, 4 characters each",
+                offset = 1,
+            },
         },
         models = {
             ["I-7017"] = false,
@@ -2590,6 +2604,7 @@ local DCON_COMMANDS = {
                 maximum = 1023,
                 meaning = "bit n is 1 where channel n is in fault; four digits on the M-7019Z",
                 legal = "channel_bits",
+                offset = 3,
                 digits = { 2, 4 },
                 digits_by = "mask_digits",
             },
@@ -2630,6 +2645,7 @@ local DCON_COMMANDS = {
                 name = "version",
                 kind = "version",
                 meaning = "text: a letter, a digit, a point and one or two digits, as A2.0",
+                offset = 3,
                 digits = { 4, 5 },
                 digits_by = "length",
             },
@@ -2669,6 +2685,7 @@ local DCON_COMMANDS = {
                 name = "name",
                 kind = "name",
                 meaning = "printable ASCII, no leading character of a command or response among it, and not the text of another response",
+                offset = 3,
                 digits = { 1, 2, 3, 4, 5, 6 },
                 digits_by = "length",
             },
@@ -3036,6 +3053,7 @@ local DCON_COMMANDS = {
                 name = "name",
                 kind = "name",
                 meaning = "printable ASCII, no leading character of a command or response among it, and not the text of another response",
+                offset = 4,
                 digits = { 1, 2, 3, 4, 5, 6 },
                 digits_by = "length",
             },
@@ -3441,6 +3459,7 @@ local READINGS_PART = {
     name = "values",
     kind = "readings",
     meaning = "one field a channel, as sent: 7 characters each in engineering and % format, 4 in hex; blanks for a disabled channel of the 7019 series",
+    offset = 1,
     digits = { 4, 7 },
     digits_by = "reading_digits",
 }
@@ -8132,6 +8151,20 @@ local function profile_of(interface, address)
         or modules["*:*"]
 end
 
+-- A profile with what a line has shown of the module, where nothing else is said.
+local function with_learned(profile, learned)
+    if not learned or profile.format and profile.types then
+        return profile
+    end
+    local known = {}
+    for name, value in pairs(profile) do
+        known[name] = value
+    end
+    known.format = profile.format or learned.format
+    known.types = profile.types or learned.types
+    return known
+end
+
 local FORMATS = { [0] = "engineering", [1] = "percent", [2] = "hex" }
 
 local function read_preferences(prefs)
@@ -8141,7 +8174,7 @@ local function read_preferences(prefs)
         model = prefs.model > 0 and MODELS[prefs.model] or nil,
         firmware = prefs.firmware ~= "" and guarded(read_firmware, prefs.firmware) or nil,
         types = guarded(read_types, prefs.types),
-        format = FORMATS[prefs.format],
+        format = FORMATS[prefs.format - 1],
         modbus_format = FORMATS[prefs.modbus_format],
         single_ended = prefs.single_ended,
     }
@@ -8435,8 +8468,16 @@ local function read_code(text, part)
     return number
 end
 
+-- The format of readings: the one that is known, or else the one that a text looks like.
+local function format_of(text, part, profile)
+    if not part.digits_by then
+        return "hex"
+    end
+    return profile.format or text:match("[^%dA-F ]") and "engineering" or "hex"
+end
+
 local function read_readings(text, part, profile)
-    local format = part.digits_by and profile.format or "hex"
+    local format = format_of(text, part, profile)
     local legacy = is_legacy(profile)
     local fields = cut_line(text, format, legacy)
     local count = part.kind == "reading" and 1 or channels_of(profile)
@@ -8503,11 +8544,11 @@ local READERS = {
 }
 
 -- The widths that a part may have, as a function of a width.
-local function width_fits(part, profile)
+local function width_fits(part, profile, text)
     local by = part.digits_by
     local model = profile.model
     if part.kind == "readings" or part.kind == "reading" then
-        local digits = (by and profile.format ~= "hex") and 7 or 4
+        local digits = format_of(text, part, profile) == "hex" and 4 or 7
         local count = part.kind == "reading" and 1 or channels_of(profile)
         if is_legacy(profile) then
             return function()
@@ -8551,7 +8592,8 @@ local function fit(parts, body, profile, is_response)
         end
     end
     local width = #body - fixed
-    if open and not (width >= 0 and width_fits(open, profile)(width)) or not open and width ~= 0 then
+    local text = open and body:sub(open.offset + 1) or ""
+    if open and not (width >= 0 and width_fits(open, profile, text)(width)) or not open and width ~= 0 then
         return nil, "length"
     end
     local values, places, at = {}, {}, 1
@@ -8927,15 +8969,38 @@ dcon.experts = list_of(dcon_made.experts)
 
 local dcon_pairs = pairing()
 
+local learned_of = {}
+
 function dcon.init()
     dcon_pairs.clear()
+    learned_of = {}
+end
+
+-- Keep what a response shows of a module: the format of its readings, its types. A table once kept never changes, so
+-- that every packet is read with what was known at its time.
+local function learn(key, found, profile)
+    local name, values, before = found.message.name, found.values, learned_of[key] or {}
+    if name == "Configuration" then
+        local one = TYPES[values.type_code] and not (profile.model and profile.model.mixed_types == "ignored")
+        learned_of[key] = {
+            format = FORMATS[bits(values.report_settings, 0, 2)] or before.format,
+            types = one and { values.type_code } or before.types,
+        }
+    elseif name == "ChannelTypeCode" and TYPES[values.type_code] then
+        local types = {}
+        for channel = 0, (channels_of(profile) or 20) - 1 do
+            local old = type_of({ model = profile.model, types = before.types }, channel)
+            types[channel + 1] = channel == values.channel and values.type_code or old and old.code or false
+        end
+        learned_of[key] = { format = before.format, types = types }
+    end
 end
 
 local function add_readings(root, field, range_of, place, fields, request, profile)
     local values = request and request.values or {}
     local first = field.kind == "reading" and values.channel or 0
-    local format = field.digits_by and profile.format or "hex"
     local at = place[1]
+    local format = format_of(table.concat(fields), field, profile)
     local legacy = is_legacy(profile)
     for index, text in ipairs(fields) do
         local channel = first + index - 1
@@ -8989,7 +9054,7 @@ end
 local function add_unpaired(root, body, range_of, profile)
     root:add_proto_expert_info(dcon_made.experts.no_request)
     local values = READINGS_PART
-    local fields = body:sub(1, 1) == ">" and width_fits(values, profile)(#body - 1)
+    local fields = body:sub(1, 1) == ">" and width_fits(values, profile, body:sub(2))(#body - 1)
         and read_readings(body:sub(2), values, profile)
     if fields then
         root:add(dcon_made.fields.message, range_of(1, 1), "AnalogInputs"):append_text(" (assumed)")
@@ -9025,7 +9090,8 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
     local body = frame:gsub("\r$", "")
     local request = is_response and dcon_pairs.request(pinfo, line, n) or nil
     local address = request and request.values.address or tonumber(body:match("^.(%x%x)") or "", 16)
-    local profile = profile_of(interface, address)
+    local learned = line .. "/" .. tostring(address)
+    local profile = with_learned(profile_of(interface, address), request and request.learned)
     add_preference_fault(root, dcon_made)
     local found = { fault = frame_fault(frame, is_response and RESPONSES_BEGIN or COMMANDS_BEGIN) }
     if not found.fault and is_response and not request then
@@ -9060,6 +9126,9 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         add_request(root, dcon_made, pinfo, request)
         if not found.fault then
             dcon_pairs.answer(pinfo, request)
+            if not pinfo.visited then
+                learn(learned, found, profile)
+            end
         end
     elseif not is_response then
         local command = not found.fault and found.message
@@ -9067,7 +9136,7 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         add_answer(root, dcon_made, pinfo, dcon_pairs)
         dcon_pairs.ask(pinfo, line, command and command.response and {
             command = command, values = found.values, frame = pinfo.number, time = pinfo.rel_ts,
-            with_checksum = found.checksum ~= nil,
+            with_checksum = found.checksum ~= nil, learned = learned_of[learned],
         } or nil)
     end
     local name = found.message and found.message.name or found.fault and FAULTS[found.fault] or "Response"
@@ -9694,7 +9763,7 @@ local MODEL_CHOICES = { { 1, "unknown", 0 } }
 for index, model in ipairs(MODELS) do
     MODEL_CHOICES[#MODEL_CHOICES + 1] = { index + 1, model.name, index }
 end
-local FORMAT_CHOICES = { { 1, "engineering", 0 }, { 2, "percent", 1 }, { 3, "hex", 2 } }
+local FORMAT_CHOICES = { { 1, "automatic", 0 }, { 2, "engineering", 1 }, { 3, "percent", 2 }, { 4, "hex", 3 } }
 local MODBUS_FORMAT_CHOICES = { { 1, "engineering", 0 }, { 2, "hex", 2 } }
 local CHECKSUM_CHOICES = { { 1, "automatic", 0 }, { 2, "disabled", 1 }, { 3, "enabled", 2 } }
 
@@ -9703,8 +9772,9 @@ i7000.prefs.model = Pref.enum("Model", 0, "The model of the modules; register na
 i7000.prefs.firmware = Pref.string("Firmware", "", "The firmware of the modules, such as B3.7; empty: the newest")
 i7000.prefs.types = Pref.string("Types", "",
     "The type of all channels, such as K, V_10, MA_4_20 or 0F, or one for each with / between; "
-    .. "empty: the factory default")
-i7000.prefs.format = Pref.enum("DCON format", 0, "The format of DCON readings", FORMAT_CHOICES)
+    .. "empty: what $AA2 and $AA8Ci returned, or the factory default")
+i7000.prefs.format = Pref.enum("DCON format", 0,
+    "The format of DCON readings; automatic: what $AA2 returned, or what they look like", FORMAT_CHOICES)
 i7000.prefs.modbus_format = Pref.enum("Modbus format", 2, "The format of analog registers, coil 00269",
     MODBUS_FORMAT_CHOICES)
 i7000.prefs.checksum = Pref.enum("DCON checksum", 0, "Whether DCON frames have a checksum", CHECKSUM_CHOICES)

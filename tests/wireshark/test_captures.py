@@ -238,3 +238,46 @@ def test_every_preference_and_filter_of_the_guide_exists(tmp_path: Path) -> None
     assert sorted(f"{protocol}.{name}" for protocol, name in stated) == sorted(named)
     assert len(fields) > 15
     assert len(dissect(tmp_path, capture, sorted(fields))) == 1
+
+
+READING = ("dcon.reading", "dcon.reading.value", "dcon.reading.unit", "dcon.fault")
+
+
+def readings(seen: Seen) -> list[str]:
+    """Return the readings of a packet in words."""
+    return [
+        f"{value} {unit}" for value, unit in zip(seen["dcon.reading.value"], seen["dcon.reading.unit"], strict=True)
+    ]
+
+
+def test_format_and_types_are_taken_from_what_the_line_shows(tmp_path: Path) -> None:
+    texts = ("#01", ">+050.00+050.00", "$012", "!010F0601", "#01", ">+050.00+050.00", "$018C1", "!01C1R05", "#01")
+    seen = line(tmp_path, *texts, ">+050.00+050.00", "#02", ">+050.00+050.00", preferences={}, fields=READING)
+
+    assert [seen[at]["dcon.reading.value"] for at in (1, 11)] == [["50", "50"], ["50", "50"]]
+    assert [seen[at]["dcon.reading.unit"] for at in (1, 11)] == [[], []]
+    assert [readings(seen[at]) for at in (5, 9)] == [["686 degC", "686 degC"], ["686 degC", "1.25 V"]]
+
+
+def test_a_second_pass_reads_each_packet_with_what_was_known_at_its_time(tmp_path: Path) -> None:
+    capture = tmp_path / "line.pcapng"
+    texts = ("#01", ">+050.00", "$012", "!010F0601", "#01", ">+050.00")
+    write_capture(capture, [DCON], [Frame(f"{text}\r".encode()) for text in texts])
+
+    assert dissect(tmp_path, capture, READING) == dissect(tmp_path, capture, READING, "-2")
+
+
+def test_what_is_set_goes_before_what_the_line_shows(tmp_path: Path) -> None:
+    texts = ("$012", "!010F0601", "#01", ">+050.00")
+    preferences = {"i7000_types": "V_10", "i7000_format": "percent"}
+    seen = line(tmp_path, *texts, preferences=preferences, fields=READING)
+
+    assert readings(seen[3]) == ["5 V"]
+
+
+def test_hex_readings_are_known_by_their_look(tmp_path: Path) -> None:
+    seen = line(tmp_path, "#01", ">7FFF    8000", ">7FFF", preferences={"i7000_types": "V_10"}, fields=READING)
+
+    assert [it["dcon.reading"] for it in seen] == [[], ["7FFF", "    ", "8000"], ["7FFF"]]
+    assert [it["dcon.reading.value"] for it in seen[1:]] == [["10", "-10"], ["10"]]
+    assert not any(it["dcon.fault"] for it in seen)

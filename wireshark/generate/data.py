@@ -148,6 +148,7 @@ def _part(it: Record, fields: dict[str, Record]) -> Record:
     digits = field["digits"]
     return _field(field) | {
         "width": width,
+        "offset": it["offset"] if width is None else None,
         "digits": digits if isinstance(digits, list) else None,
         "digits_by": field["digits_by"],
     }

@@ -143,6 +143,20 @@ local function profile_of(interface, address)
         or modules["*:*"]
 end
 
+-- A profile with what a line has shown of the module, where nothing else is said.
+local function with_learned(profile, learned)
+    if not learned or profile.format and profile.types then
+        return profile
+    end
+    local known = {}
+    for name, value in pairs(profile) do
+        known[name] = value
+    end
+    known.format = profile.format or learned.format
+    known.types = profile.types or learned.types
+    return known
+end
+
 local FORMATS = { [0] = "engineering", [1] = "percent", [2] = "hex" }
 
 local function read_preferences(prefs)
@@ -152,7 +166,7 @@ local function read_preferences(prefs)
         model = prefs.model > 0 and MODELS[prefs.model] or nil,
         firmware = prefs.firmware ~= "" and guarded(read_firmware, prefs.firmware) or nil,
         types = guarded(read_types, prefs.types),
-        format = FORMATS[prefs.format],
+        format = FORMATS[prefs.format - 1],
         modbus_format = FORMATS[prefs.modbus_format],
         single_ended = prefs.single_ended,
     }

@@ -72,8 +72,16 @@ local function read_code(text, part)
     return number
 end
 
+-- The format of readings: the one that is known, or else the one that a text looks like.
+local function format_of(text, part, profile)
+    if not part.digits_by then
+        return "hex"
+    end
+    return profile.format or text:match("[^%dA-F ]") and "engineering" or "hex"
+end
+
 local function read_readings(text, part, profile)
-    local format = part.digits_by and profile.format or "hex"
+    local format = format_of(text, part, profile)
     local legacy = is_legacy(profile)
     local fields = cut_line(text, format, legacy)
     local count = part.kind == "reading" and 1 or channels_of(profile)
@@ -140,11 +148,11 @@ local READERS = {
 }
 
 -- The widths that a part may have, as a function of a width.
-local function width_fits(part, profile)
+local function width_fits(part, profile, text)
     local by = part.digits_by
     local model = profile.model
     if part.kind == "readings" or part.kind == "reading" then
-        local digits = (by and profile.format ~= "hex") and 7 or 4
+        local digits = format_of(text, part, profile) == "hex" and 4 or 7
         local count = part.kind == "reading" and 1 or channels_of(profile)
         if is_legacy(profile) then
             return function()
@@ -188,7 +196,8 @@ local function fit(parts, body, profile, is_response)
         end
     end
     local width = #body - fixed
-    if open and not (width >= 0 and width_fits(open, profile)(width)) or not open and width ~= 0 then
+    local text = open and body:sub(open.offset + 1) or ""
+    if open and not (width >= 0 and width_fits(open, profile, text)(width)) or not open and width ~= 0 then
         return nil, "length"
     end
     local values, places, at = {}, {}, 1

@@ -15,15 +15,38 @@ dcon.experts = list_of(dcon_made.experts)
 
 local dcon_pairs = pairing()
 
+local learned_of = {}
+
 function dcon.init()
     dcon_pairs.clear()
+    learned_of = {}
+end
+
+-- Keep what a response shows of a module: the format of its readings, its types. A table once kept never changes, so
+-- that every packet is read with what was known at its time.
+local function learn(key, found, profile)
+    local name, values, before = found.message.name, found.values, learned_of[key] or {}
+    if name == "Configuration" then
+        local one = TYPES[values.type_code] and not (profile.model and profile.model.mixed_types == "ignored")
+        learned_of[key] = {
+            format = FORMATS[bits(values.report_settings, 0, 2)] or before.format,
+            types = one and { values.type_code } or before.types,
+        }
+    elseif name == "ChannelTypeCode" and TYPES[values.type_code] then
+        local types = {}
+        for channel = 0, (channels_of(profile) or 20) - 1 do
+            local old = type_of({ model = profile.model, types = before.types }, channel)
+            types[channel + 1] = channel == values.channel and values.type_code or old and old.code or false
+        end
+        learned_of[key] = { format = before.format, types = types }
+    end
 end
 
 local function add_readings(root, field, range_of, place, fields, request, profile)
     local values = request and request.values or {}
     local first = field.kind == "reading" and values.channel or 0
-    local format = field.digits_by and profile.format or "hex"
     local at = place[1]
+    local format = format_of(table.concat(fields), field, profile)
     local legacy = is_legacy(profile)
     for index, text in ipairs(fields) do
         local channel = first + index - 1
@@ -77,7 +100,7 @@ end
 local function add_unpaired(root, body, range_of, profile)
     root:add_proto_expert_info(dcon_made.experts.no_request)
     local values = READINGS_PART
-    local fields = body:sub(1, 1) == ">" and width_fits(values, profile)(#body - 1)
+    local fields = body:sub(1, 1) == ">" and width_fits(values, profile, body:sub(2))(#body - 1)
         and read_readings(body:sub(2), values, profile)
     if fields then
         root:add(dcon_made.fields.message, range_of(1, 1), "AnalogInputs"):append_text(" (assumed)")
@@ -113,7 +136,8 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
     local body = frame:gsub("\r$", "")
     local request = is_response and dcon_pairs.request(pinfo, line, n) or nil
     local address = request and request.values.address or tonumber(body:match("^.(%x%x)") or "", 16)
-    local profile = profile_of(interface, address)
+    local learned = line .. "/" .. tostring(address)
+    local profile = with_learned(profile_of(interface, address), request and request.learned)
     add_preference_fault(root, dcon_made)
     local found = { fault = frame_fault(frame, is_response and RESPONSES_BEGIN or COMMANDS_BEGIN) }
     if not found.fault and is_response and not request then
@@ -148,6 +172,9 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         add_request(root, dcon_made, pinfo, request)
         if not found.fault then
             dcon_pairs.answer(pinfo, request)
+            if not pinfo.visited then
+                learn(learned, found, profile)
+            end
         end
     elseif not is_response then
         local command = not found.fault and found.message
@@ -155,7 +182,7 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         add_answer(root, dcon_made, pinfo, dcon_pairs)
         dcon_pairs.ask(pinfo, line, command and command.response and {
             command = command, values = found.values, frame = pinfo.number, time = pinfo.rel_ts,
-            with_checksum = found.checksum ~= nil,
+            with_checksum = found.checksum ~= nil, learned = learned_of[learned],
         } or nil)
     end
     local name = found.message and found.message.name or found.fault and FAULTS[found.fault] or "Response"

@@ -4,7 +4,7 @@ local MODEL_CHOICES = { { 1, "unknown", 0 } }
 for index, model in ipairs(MODELS) do
     MODEL_CHOICES[#MODEL_CHOICES + 1] = { index + 1, model.name, index }
 end
-local FORMAT_CHOICES = { { 1, "engineering", 0 }, { 2, "percent", 1 }, { 3, "hex", 2 } }
+local FORMAT_CHOICES = { { 1, "automatic", 0 }, { 2, "engineering", 1 }, { 3, "percent", 2 }, { 4, "hex", 3 } }
 local MODBUS_FORMAT_CHOICES = { { 1, "engineering", 0 }, { 2, "hex", 2 } }
 local CHECKSUM_CHOICES = { { 1, "automatic", 0 }, { 2, "disabled", 1 }, { 3, "enabled", 2 } }
 
@@ -13,8 +13,9 @@ i7000.prefs.model = Pref.enum("Model", 0, "The model of the modules; register na
 i7000.prefs.firmware = Pref.string("Firmware", "", "The firmware of the modules, such as B3.7; empty: the newest")
 i7000.prefs.types = Pref.string("Types", "",
     "The type of all channels, such as K, V_10, MA_4_20 or 0F, or one for each with / between; "
-    .. "empty: the factory default")
-i7000.prefs.format = Pref.enum("DCON format", 0, "The format of DCON readings", FORMAT_CHOICES)
+    .. "empty: what $AA2 and $AA8Ci returned, or the factory default")
+i7000.prefs.format = Pref.enum("DCON format", 0,
+    "The format of DCON readings; automatic: what $AA2 returned, or what they look like", FORMAT_CHOICES)
 i7000.prefs.modbus_format = Pref.enum("Modbus format", 2, "The format of analog registers, coil 00269",
     MODBUS_FORMAT_CHOICES)
 i7000.prefs.checksum = Pref.enum("DCON checksum", 0, "Whether DCON frames have a checksum", CHECKSUM_CHOICES)
