@@ -3476,6 +3476,22 @@ local FUNCTIONS = {
         minimum_count = 1,
         maximum_count = 2000,
         broadcast = false,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             start = {
                 name = "start",
@@ -3506,6 +3522,17 @@ local FUNCTIONS = {
         minimum_count = 1,
         maximum_count = 2000,
         broadcast = false,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7019R"] = false,
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             start = {
                 name = "start",
@@ -3536,6 +3563,22 @@ local FUNCTIONS = {
         minimum_count = 1,
         maximum_count = 125,
         broadcast = false,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             start = {
                 name = "start",
@@ -3590,6 +3633,22 @@ local FUNCTIONS = {
         description = "Writes one coil: FF00 is 1, 0000 is 0.",
         errata = { "E55", "E94" },
         broadcast = true,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             coil = { name = "coil", kind = "unsigned", minimum = 0, maximum = 65535, meaning = "address of the coil" },
             value = { name = "value", kind = "coil", meaning = "FF00 is true, 0000 is false" },
@@ -3613,6 +3672,22 @@ local FUNCTIONS = {
         description = "Writes one holding register.",
         errata = { "E55", "E94" },
         broadcast = true,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             register = {
                 name = "register",
@@ -3650,6 +3725,22 @@ local FUNCTIONS = {
         minimum_count = 1,
         maximum_count = 1968,
         broadcast = true,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             start = {
                 name = "start",
@@ -3693,6 +3784,22 @@ local FUNCTIONS = {
         minimum_count = 1,
         maximum_count = 123,
         broadcast = true,
+        models = {
+            ["M-7017"] = "B3.0",
+            ["M-7017C"] = "B3.0",
+            ["M-7017R"] = "B3.0",
+            ["M-7017RC"] = "B3.0",
+            ["M-7017R-A5"] = "B3.0",
+            ["M-7017Z"] = false,
+            ["M-7017RMS"] = false,
+            ["M-7017mC-16"] = false,
+            ["M-7018"] = "B3.5",
+            ["M-7018R"] = "B3.5",
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = "B3.0",
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             start = {
                 name = "start",
@@ -4123,6 +4230,14 @@ local MODULE_SETTINGS = {
         response = "46 2B offset:2",
         description = "Reads the CJC offset of the module or of a channel.",
         errata = { "E62", "E63", "E85", "E104" },
+        models = {
+            ["M-7018"] = false,
+            ["M-7018R"] = false,
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = false,
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             channel = {
                 name = "channel",
@@ -4158,6 +4273,14 @@ local MODULE_SETTINGS = {
         response = "46 2C result",
         description = "Sets the CJC offset of the module or of a channel.",
         errata = { "E62", "E63", "E85", "E90", "E104" },
+        models = {
+            ["M-7018"] = false,
+            ["M-7018R"] = false,
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = false,
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             channel = {
                 name = "channel",
@@ -4200,6 +4323,14 @@ local MODULE_SETTINGS = {
         response = "46 2D enabled",
         description = "Reads whether the CJC is enabled.",
         errata = { "E63" },
+        models = {
+            ["M-7018"] = false,
+            ["M-7018R"] = false,
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = false,
+            ["M-7019Z"] = false,
+        },
         request_fields = {},
         response_fields = {
             enabled = {
@@ -4223,6 +4354,14 @@ local MODULE_SETTINGS = {
         response = "46 2E result",
         description = "Enables or disables the CJC.",
         errata = { "E64", "E90" },
+        models = {
+            ["M-7018"] = false,
+            ["M-7018R"] = false,
+            ["M-7018Z"] = false,
+            ["M-7018-16"] = false,
+            ["M-7019R"] = false,
+            ["M-7019Z"] = false,
+        },
         request_fields = {
             enabled = { name = "enabled", kind = "bool", minimum = 0, maximum = 1, meaning = "0 disables, 1 enables" },
         },
@@ -4248,6 +4387,7 @@ local MODULE_SETTINGS = {
         response = "46 2F update",
         description = "Reads how the CJC temperature is updated.",
         errata = { "E115" },
+        models = { ["M-7019R"] = false, ["M-7019Z"] = false },
         request_fields = {},
         response_fields = {
             update = {
@@ -4268,6 +4408,7 @@ local MODULE_SETTINGS = {
         response = "46 30 result",
         description = "Sets how the CJC temperature is updated; 2 updates it once, when the request arrives.",
         errata = { "E64", "E90" },
+        models = { ["M-7019R"] = false, ["M-7019Z"] = false },
         request_fields = {
             update = {
                 name = "update",
@@ -8638,8 +8779,8 @@ local function candidates_of(body)
     return found
 end
 
--- Which command a body is: the command, its values and places; or nil and a fault. The last is another command that
--- it may be on another model.
+-- Which command a body is: the command, its values and places, and another command that it may be on another model;
+-- or nil, a fault, and the command that the model does not have.
 local function command_of(body, profile)
     local candidates = candidates_of(body)
     if #candidates == 0 then
@@ -8657,7 +8798,7 @@ local function command_of(body, profile)
         elseif values and own then
             found = { command, values, places }
         elseif values then
-            foreign = true
+            foreign = command
         elseif places ~= "length" and (own and not worst_own or own == worst_own and at > worst_at) then
             worst, worst_at, worst_own = places, at, own
         end
@@ -8665,7 +8806,7 @@ local function command_of(body, profile)
     if found then
         return found[1], found[2], found[3], found[4]
     elseif foreign then
-        return nil, "unsupported"
+        return nil, "unsupported", foreign
     elseif any_own and not worst_own then
         worst = "length"
     end
@@ -8720,7 +8861,7 @@ local function message_of(body, with_checksum, decode)
     if message then
         found.message, found.values, found.places, found.other = message, values, places, other
     else
-        found.fault = found.fault or values
+        found.fault, found.foreign = found.fault or values, places
     end
     return found
 end
@@ -8808,7 +8949,7 @@ local EXPERTS = {
     ambiguous = { "ambiguous", "It depends on the model what this is", "UNDECODED", "NOTE" },
     no_reading = { "not_of_type", "Not a reading of this type", "PROTOCOL", "WARN" },
     range_status = { "range_status", "Over or under range", "RESPONSE_CODE", "NOTE" },
-    access = { "access", "Not in the map of the model, or not for this access", "PROTOCOL", "WARN" },
+    access = { "access", "The model does not have this, or not for this access", "PROTOCOL", "WARN" },
     erratum = { "erratum", "The manual is contradictory or silent", "ASSUMPTION", "CHAT" },
     preference = { "preference", "A preference is invalid", "UNDECODED", "ERROR" },
 }
@@ -9044,10 +9185,10 @@ local FAULTS = {
     echo = "Not what the request has",
 }
 
-local function add_fault(root, made, fault)
+local function add_fault(root, made, fault, detail)
     root:add(made.fields.fault, fault):set_generated()
     local kind = (fault == "checksum" or fault == "crc") and made.experts.checksum or made.experts.fault
-    root:add_proto_expert_info(kind, FAULTS[fault])
+    root:add_proto_expert_info(kind, FAULTS[fault] .. (detail and ": " .. detail or ""))
 end
 
 -- A response whose command is not in the capture: readings can be read all the same.
@@ -9120,7 +9261,7 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
     end
     add_checksum(root, found, range_of, body)
     if found.fault then
-        add_fault(root, dcon_made, found.fault)
+        add_fault(root, dcon_made, found.fault, found.foreign and found.foreign.name)
     end
     if request then
         add_request(root, dcon_made, pinfo, request)
@@ -9614,7 +9755,10 @@ local function add_pdu(root, data, row, values, places, side, request, range_of,
             end
         end
     end
-    if side == "request" and AREAS[data:byte(2)] and not WRITES[data:byte(2)] then
+    if side == "request" and not has(row.models, profile) then
+        local text = "The " .. profile.model.name .. " does not have " .. row.name
+        root:add_proto_expert_info(modbus_made.experts.access, text)
+    elseif side == "request" and AREAS[data:byte(2)] and not WRITES[data:byte(2)] then
         add_missing(root, data, values.start, values.count, profile)
     end
     if row == EXCEPTION then

@@ -118,6 +118,12 @@ def test_a_command_that_depends_on_the_model_says_so(tmp_path: Path) -> None:
     assert "On other models this is ReadCjcUpdate" in seen["_ws.expert.message"]
 
 
+def test_a_command_that_the_model_does_not_have_is_named(tmp_path: Path) -> None:
+    (seen,) = line(tmp_path, "$013", preferences={"i7000_model": "I-7017"}, fields=("_ws.expert.message",))
+
+    assert seen["_ws.expert.message"] == ["The model does not have the command: ReadCjcTemperature"]
+
+
 def packet(payload: bytes, *, to_server: bool, sequence: int, port: int) -> bytes:
     """Return an Ethernet frame with TCP data between a host and a server."""
     ports = (40_000, port) if to_server else (port, 40_000)

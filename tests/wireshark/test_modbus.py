@@ -113,6 +113,21 @@ def test_a_request_that_the_map_refuses_has_an_expert_info_and_no_other_has(seen
     assert plain > 300
 
 
+def test_a_request_that_the_model_does_not_have_has_an_expert_info_and_no_other_has(seen: list[Vector]) -> None:
+    models = {row["name"]: row["models"] for row in ROWS if row["name"]}
+    flagged = 0
+    for it in seen:
+        if it.vector["request"] and it.request and it.vector["profile"]["firmware"] is None:
+            name, model = it.vector["request"]["type"], it.vector["profile"]["model"]
+            missing = models[name] != "all" and model not in models[name]
+            flagged += missing
+            assert (it.vector["id"], missing) == (
+                it.vector["id"],
+                f"The {model} does not have {name}" in it.request["_ws.expert.message"],
+            )
+    assert flagged > 5
+
+
 def test_every_response_names_the_packet_of_its_request(seen: list[Vector]) -> None:
     paired = [it for it in seen if it.vector["outcome"] in ("response", "exception") and it.response]
 

@@ -175,6 +175,7 @@ def _part_of(commands: list[Record], command: str, field: str) -> Record:
 def _request(it: Record) -> Record:
     columns = ("name", "section", "request", "response_name", "response", "description", "errata")
     limits = {name: it.get(name) for name in ("minimum_count", "maximum_count", "broadcast")}
+    limits["models"] = _gates(it["models"])
     return (
         _some(it, *columns)
         | limits

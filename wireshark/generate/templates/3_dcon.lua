@@ -242,8 +242,8 @@ local function candidates_of(body)
     return found
 end
 
--- Which command a body is: the command, its values and places; or nil and a fault. The last is another command that
--- it may be on another model.
+-- Which command a body is: the command, its values and places, and another command that it may be on another model;
+-- or nil, a fault, and the command that the model does not have.
 local function command_of(body, profile)
     local candidates = candidates_of(body)
     if #candidates == 0 then
@@ -261,7 +261,7 @@ local function command_of(body, profile)
         elseif values and own then
             found = { command, values, places }
         elseif values then
-            foreign = true
+            foreign = command
         elseif places ~= "length" and (own and not worst_own or own == worst_own and at > worst_at) then
             worst, worst_at, worst_own = places, at, own
         end
@@ -269,7 +269,7 @@ local function command_of(body, profile)
     if found then
         return found[1], found[2], found[3], found[4]
     elseif foreign then
-        return nil, "unsupported"
+        return nil, "unsupported", foreign
     elseif any_own and not worst_own then
         worst = "length"
     end
@@ -324,7 +324,7 @@ local function message_of(body, with_checksum, decode)
     if message then
         found.message, found.values, found.places, found.other = message, values, places, other
     else
-        found.fault = found.fault or values
+        found.fault, found.foreign = found.fault or values, places
     end
     return found
 end

@@ -55,7 +55,7 @@ local EXPERTS = {
     ambiguous = { "ambiguous", "It depends on the model what this is", "UNDECODED", "NOTE" },
     no_reading = { "not_of_type", "Not a reading of this type", "PROTOCOL", "WARN" },
     range_status = { "range_status", "Over or under range", "RESPONSE_CODE", "NOTE" },
-    access = { "access", "Not in the map of the model, or not for this access", "PROTOCOL", "WARN" },
+    access = { "access", "The model does not have this, or not for this access", "PROTOCOL", "WARN" },
     erratum = { "erratum", "The manual is contradictory or silent", "ASSUMPTION", "CHAT" },
     preference = { "preference", "A preference is invalid", "UNDECODED", "ERROR" },
 }

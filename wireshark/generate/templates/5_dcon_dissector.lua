@@ -90,10 +90,10 @@ local FAULTS = {
     echo = "Not what the request has",
 }
 
-local function add_fault(root, made, fault)
+local function add_fault(root, made, fault, detail)
     root:add(made.fields.fault, fault):set_generated()
     local kind = (fault == "checksum" or fault == "crc") and made.experts.checksum or made.experts.fault
-    root:add_proto_expert_info(kind, FAULTS[fault])
+    root:add_proto_expert_info(kind, FAULTS[fault] .. (detail and ": " .. detail or ""))
 end
 
 -- A response whose command is not in the capture: readings can be read all the same.
@@ -166,7 +166,7 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
     end
     add_checksum(root, found, range_of, body)
     if found.fault then
-        add_fault(root, dcon_made, found.fault)
+        add_fault(root, dcon_made, found.fault, found.foreign and found.foreign.name)
     end
     if request then
         add_request(root, dcon_made, pinfo, request)

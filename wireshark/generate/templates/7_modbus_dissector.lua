@@ -140,7 +140,10 @@ local function add_pdu(root, data, row, values, places, side, request, range_of,
             end
         end
     end
-    if side == "request" and AREAS[data:byte(2)] and not WRITES[data:byte(2)] then
+    if side == "request" and not has(row.models, profile) then
+        local text = "The " .. profile.model.name .. " does not have " .. row.name
+        root:add_proto_expert_info(modbus_made.experts.access, text)
+    elseif side == "request" and AREAS[data:byte(2)] and not WRITES[data:byte(2)] then
         add_missing(root, data, values.start, values.count, profile)
     end
     if row == EXCEPTION then
