@@ -9520,7 +9520,7 @@ local function response_to(data, request, profile)
     elseif request and request.row and row ~= request.row then
         return nil, "sub_function"
     end
-    local asked = request and request.row and request.numbers
+    local asked = request and request.row and request.values
     local values, places = take_apart(row, "response", data, profile, function(numbers)
         if asked and numbers.bytes and numbers.bytes ~= bytes_needed(row, asked.count) then
             return "count"
@@ -9832,7 +9832,7 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
         add_errata(root, modbus_made, row and row.errata)
         add_answer(root, modbus_made, pinfo, modbus_pairs)
         modbus_pairs.ask(pinfo, key, (row or fault ~= "crc" and #body >= 2) and {
-            row = row, values = values, numbers = values, data = body, frame = pinfo.number, time = pinfo.rel_ts,
+            row = row, values = row and values or {}, data = body, frame = pinfo.number, time = pinfo.rel_ts,
         } or nil)
     end
     root:append_text(", " .. name)

@@ -287,3 +287,13 @@ def test_hex_readings_are_known_by_their_look(tmp_path: Path) -> None:
     assert [it["dcon.reading"] for it in seen] == [[], ["7FFF", "    ", "8000"], ["7FFF"]]
     assert [it["dcon.reading.value"] for it in seen[1:]] == [["10", "-10"], ["10"]]
     assert not any(it["dcon.fault"] for it in seen)
+
+
+def test_a_response_to_an_invalid_request_is_read_all_the_same(tmp_path: Path) -> None:
+    capture = tmp_path / "line.pcapng"
+    write_capture(capture, [RTU], [Frame(framed("0146250000"), True), Frame(framed("014625ff"), False)])
+
+    seen = dissect(tmp_path, capture, ("i7000.fault", "i7000.message", "i7000.mask", "i7000.response_to"))
+
+    assert list(seen[0].values())[:2] == [["length"], []]
+    assert list(seen[1].values())[:4] == [[], ["ChannelMask"], ["0x0000ff"], ["1"]]

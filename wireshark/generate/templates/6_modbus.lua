@@ -188,7 +188,7 @@ local function response_to(data, request, profile)
     elseif request and request.row and row ~= request.row then
         return nil, "sub_function"
     end
-    local asked = request and request.row and request.numbers
+    local asked = request and request.row and request.values
     local values, places = take_apart(row, "response", data, profile, function(numbers)
         if asked and numbers.bytes and numbers.bytes ~= bytes_needed(row, asked.count) then
             return "count"

@@ -217,7 +217,7 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
         add_errata(root, modbus_made, row and row.errata)
         add_answer(root, modbus_made, pinfo, modbus_pairs)
         modbus_pairs.ask(pinfo, key, (row or fault ~= "crc" and #body >= 2) and {
-            row = row, values = values, numbers = values, data = body, frame = pinfo.number, time = pinfo.rel_ts,
+            row = row, values = row and values or {}, data = body, frame = pinfo.number, time = pinfo.rel_ts,
         } or nil)
     end
     root:append_text(", " .. name)
