@@ -3,6 +3,7 @@
 import sys
 from pathlib import Path
 
+from c.generate.writing import write
 from wireshark.generate.files import generated
 
 ROOT = Path(__file__).parents[2]
@@ -10,12 +11,7 @@ ROOT = Path(__file__).parents[2]
 
 def main() -> int:
     """Write every file that differs, and name it."""
-    for name, written in generated(ROOT / "spec").items():
-        file = ROOT / name
-        if not file.exists() or file.read_text("utf-8") != written:
-            file.write_text(written, "utf-8")
-            print(f"wrote {name}")  # noqa: T201
-    return 0
+    return write(generated(ROOT / "spec"), ROOT)
 
 
 if __name__ == "__main__":
