@@ -146,7 +146,8 @@ def test_it_sees_in_the_vectors_what_they_say(dissected: Dissect) -> None:
             count = values["count"] if "count" in values else len(values["values"])
             assert (name, values["start"], count) == (name, it.start, it.count)
         elif frame[1] not in UNNAMED:
-            assert (name, values["values"]) == (name, named_items(it, len(values["values"])))
+            items = [int(item) for item in values["values"]]
+            assert (name, items) == (name, named_items(it, len(items)))
 
 
 def test_it_finds_the_vectors_with_a_bad_crc_bad_and_no_others(dissected: Dissect) -> None:
