@@ -26,7 +26,7 @@ extern "C" {
 #define I7000_FIRMWARE(letter, major, minor) \
     ((uint32_t)(letter) << 16 | (uint32_t)(major) << 8 | (uint32_t)(minor))
 #define I7000_ANY 0u            /* any firmware */
-#define I7000_NEVER 0xFFFFFFFFu /* no firmware; as the last one of a range: the newest */
+#define I7000_NEVER 0xFFFFFFFFu /* no firmware; as an upper limit: no limit */
 #define I7000_NEWEST 0xFFFFFFFEu /* of a module whose firmware is unknown */
 
 #define I7000_NO_MINIMUM INT32_MIN
@@ -374,7 +374,7 @@ enum {
     I7000_UNIT_NAMES_SIZE = 4,
 };
 
-/* What came of a reading. */
+/* Status of a reading. */
 enum {
     I7000_STATUS_OK = 0,
     I7000_STATUS_OVER_RANGE = 1,
@@ -572,7 +572,7 @@ typedef struct i7000_dcon_command {
     size_t response_part_count;
     const i7000_gate *gates;
     size_t gate_count;
-    uint16_t pause_ms;           /* leave the bus or the module alone after the command, by these firmwares */
+    uint16_t pause_ms;           /* pause after the command, for firmware from pause_from to pause_to */
     uint8_t pause_is_until_done; /* 1: the module works so long. 0: a gap on the bus, for every module */
     uint32_t pause_from;
     uint32_t pause_to;

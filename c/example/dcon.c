@@ -267,7 +267,7 @@ static int is_like(const char *const *patterns, const uint8_t *text, size_t leng
     return 0;
 }
 
-/* Whether a name could be another response, or a version is none. */
+/* Whether a name could be another response, or a version is invalid. */
 static int is_other_text(const codec_message *response)
 {
     static const char *const VERSIONS[] = {"ud.d", "ud.dd", NULL};

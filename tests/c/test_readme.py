@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from i7000.cli.vector_files import all_vectors
 from tests.c import C, compile_c, output_of
-from tests.c.test_example import DECODER
+from tests.c.test_example import DECODER, IMPLEMENTED
 from tests.interop import program
 
 README = (C / "README.md").read_text("utf-8")
@@ -34,6 +35,13 @@ def test_the_lines_of_the_example_are_as_many_as_it_says() -> None:
 
     assert len(stated) == 7
     assert stated == {name: str(len((C / "example" / name).read_text("utf-8").splitlines())) for name in stated}
+
+
+def test_the_numbers_of_vectors_are_those_of_the_example() -> None:
+    vectors = all_vectors()
+    passed = [it for it in vectors if any(case.operation in IMPLEMENTED for case in it.cases)]
+
+    assert f"{len(passed):,} of {len(vectors):,}," in README
 
 
 def test_its_snippets_compile(tmp_path: Path) -> None:

@@ -45,6 +45,15 @@ def test_every_page_is_linked_from_the_first() -> None:
     assert linked == set(WITH_EXAMPLES)
 
 
+def test_the_numbers_of_rows_are_those_of_the_index() -> None:
+    files = json.loads((lint.SPEC / "index.json").read_text("utf-8"))["files"]
+    stated = re.findall(r"^\| `([a-z_/]+)(?:<.*)?\.json` \| (\d+) \|", page(START), re.MULTILINE)
+
+    assert len(stated) == 8
+    for start, rows in stated:
+        assert int(rows) == sum(file["records"] for file in files if file["name"].startswith(start)), start
+
+
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
 def test_every_page_has_an_example(name: str) -> None:
     assert section(name, "## Example")
