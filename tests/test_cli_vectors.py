@@ -80,7 +80,7 @@ def test_node_passes_what_it_implements_and_skips_the_rest(run: Run) -> None:
     assert told.code == 0
     assert set(verdicts(told)) == {"PASS", "SKIP"}
     passed = {name: counts["PASS"] for name, counts in end["operations"].items() if counts["PASS"]}
-    assert passed == {"frames.checksum": 19, "frames.crc": 19, "frames.split": 112, "readings.read": 542}
+    assert passed == {"frames.checksum": 19, "frames.crc": 19, "frames.split": 112, "readings.read": 543}
     assert {record["reason"] for record in told.records[1:-1]} == {None, "not-implemented"}
     assert 0 < end["vectors"]["partial"] < end["vectors"]["PASS"]
 

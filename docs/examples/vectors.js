@@ -2,7 +2,8 @@
 // The protocol is in docs/port_the_codec.md, what the functions do in spec/runner.md.
 "use strict";
 const TYPES = new Map(require("../../spec/tables/type_codes.json").rows.map((row) => [row.code, row]));
-const OUT_OF_RANGE = { "+9999.9": "over_range", "-9999.9": "under_range" };
+const [OVER, UNDER] = ["over_range", "under_range"];
+const OUT_OF_RANGE = { "+9999.9": OVER, "-9999.9": UNDER, "+999.99": OVER, "-999.99": UNDER };
 class Fault extends Error {} // what the codec refuses; the message is the name of the fault
 
 const sum = (bytes) => (bytes.reduce((a, b) => a + b, 0) & 0xff).toString(16).toUpperCase().padStart(2, "0");

@@ -29,6 +29,7 @@ pytestmark = pytest.mark.no_cover
 FEW = settings(max_examples=settings().max_examples // 6)
 """For what is tried with every class."""
 
+SHORTEST_RESPONSE = 5
 MESSAGES = [kind for kind in vars(modbus).values() if isinstance(kind, type) and "pdu" in vars(kind)]
 BROADCASTS = [kind for kind in modbus.REQUESTS if kind.broadcast]
 
@@ -155,18 +156,19 @@ def test_no_beginning_of_a_frame_is_a_message(kind: type[modbus.Request[Any]], d
     exchange = data.draw(exchanges(kind))
     request, response = exchange.request_wire, exchange.response_wire
 
-    found: list[modbus.Message | DecodeError] = [
-        decoded(modbus.decode_request, request[:end], exchange.profile) for end in range(len(request))
+    beginnings: list[tuple[int, modbus.Message | DecodeError]] = [
+        (modbus.SHORTEST_FRAME, decoded(modbus.decode_request, request[:end], exchange.profile))
+        for end in range(len(request))
     ]
-    found += [
-        decoded(modbus.decode_response, response[:end], exchange.request, exchange.profile)
+    beginnings += [
+        (SHORTEST_RESPONSE, decoded(modbus.decode_response, response[:end], exchange.request, exchange.profile))
         for end in range(len(response))
     ]
 
-    for error in found:
+    for shortest, error in beginnings:
         assert isinstance(error, DecodeError)
         if modbus.crc16(error.wire):
-            assert error.fault is (Fault.CRC if len(error.wire) >= modbus.SHORTEST_FRAME else Fault.LENGTH)
+            assert error.fault is (Fault.CRC if len(error.wire) >= shortest else Fault.LENGTH)
 
 
 @each_request

@@ -106,7 +106,7 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - of any field
         return value.hex()
     if isinstance(value, LineSettings | ReportSettings):
         return value.byte
-    if isinstance(value, tuple) and isinstance(value[0], bool):
+    if value.__class__ is tuple and value[0].__class__ is bool:
         return "".join(f"{bit:d}" for bit in value)
     return value.value if isinstance(value, Enum) else value
 
