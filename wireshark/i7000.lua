@@ -9500,6 +9500,18 @@ local EXCEPTION = {
     name = "ExceptionResponse", response = "function exception_code", response_fields = EXCEPTION_FIELDS,
 }
 
+-- Whether a response has bits that are reserved: of channels that the module does not have, of settings that no module
+-- has, or above the byte that the offset of a channel is.
+local function has_reserved_bits(row, numbers, asked, profile)
+    local channels = channels_of(profile)
+    if numbers.mask then
+        return channels ~= nil and numbers.mask >= 2 ^ channels
+    elseif numbers.settings then
+        return row.response_fields.settings.legal[numbers.settings] == nil
+    end
+    return numbers.offset and asked and asked.channel and asked.channel >= 0x80 and numbers.offset > 0xFF
+end
+
 -- What a response is, without CRC; the request may be unknown.
 local function response_to(data, request, profile)
     local code = data:byte(2)
@@ -9528,6 +9540,7 @@ local function response_to(data, request, profile)
         if asked and not numbers.bytes and code ~= 0x46 and data:sub(3) ~= request.data:sub(3, #data) then
             return "echo"
         end
+        return has_reserved_bits(row, numbers, asked, profile) and "reserved" or nil
     end)
     if not values then
         return nil, places
@@ -9792,16 +9805,16 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
     add_preference_fault(root, modbus_made)
     local line = line_of(pinfo)
     local key = line .. (transaction and " " .. transaction or "")
-    local fault
-    if #data < (transaction and 2 or 4) or #data > 256 + (transaction and 4 or 0) then
-        fault = "length"
-    elseif not transaction and crc_of(data) ~= 0 then
-        fault = "crc"
-    end
     local request = modbus_pairs.request(pinfo, key, n)
     local body = transaction and data or data:sub(1, -3)
     local from_module = #body >= 2 and is_from_module(pinfo, line, data, request)
     request = from_module and request or nil
+    local fault
+    if #data < (transaction and 2 or from_module and 5 or 4) or #data > 256 + (transaction and 4 or 0) then
+        fault = "length"
+    elseif not transaction and crc_of(data) ~= 0 then
+        fault = "crc"
+    end
     local profile = profile_of(interface_of(), #data > 0 and data:byte(1) or nil)
     local row, values, places
     if not fault then

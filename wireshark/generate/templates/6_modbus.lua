@@ -168,6 +168,18 @@ local EXCEPTION = {
     name = "ExceptionResponse", response = "function exception_code", response_fields = EXCEPTION_FIELDS,
 }
 
+-- Whether a response has bits that are reserved: of channels that the module does not have, of settings that no module
+-- has, or above the byte that the offset of a channel is.
+local function has_reserved_bits(row, numbers, asked, profile)
+    local channels = channels_of(profile)
+    if numbers.mask then
+        return channels ~= nil and numbers.mask >= 2 ^ channels
+    elseif numbers.settings then
+        return row.response_fields.settings.legal[numbers.settings] == nil
+    end
+    return numbers.offset and asked and asked.channel and asked.channel >= 0x80 and numbers.offset > 0xFF
+end
+
 -- What a response is, without CRC; the request may be unknown.
 local function response_to(data, request, profile)
     local code = data:byte(2)
@@ -196,6 +208,7 @@ local function response_to(data, request, profile)
         if asked and not numbers.bytes and code ~= 0x46 and data:sub(3) ~= request.data:sub(3, #data) then
             return "echo"
         end
+        return has_reserved_bits(row, numbers, asked, profile) and "reserved" or nil
     end)
     if not values then
         return nil, places

@@ -177,16 +177,16 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
     add_preference_fault(root, modbus_made)
     local line = line_of(pinfo)
     local key = line .. (transaction and " " .. transaction or "")
-    local fault
-    if #data < (transaction and 2 or 4) or #data > 256 + (transaction and 4 or 0) then
-        fault = "length"
-    elseif not transaction and crc_of(data) ~= 0 then
-        fault = "crc"
-    end
     local request = modbus_pairs.request(pinfo, key, n)
     local body = transaction and data or data:sub(1, -3)
     local from_module = #body >= 2 and is_from_module(pinfo, line, data, request)
     request = from_module and request or nil
+    local fault
+    if #data < (transaction and 2 or from_module and 5 or 4) or #data > 256 + (transaction and 4 or 0) then
+        fault = "length"
+    elseif not transaction and crc_of(data) ~= 0 then
+        fault = "crc"
+    end
     local profile = profile_of(interface_of(), #data > 0 and data:byte(1) or nil)
     local row, values, places
     if not fault then
