@@ -195,6 +195,21 @@ def test_rtu_without_directions_is_paired_by_what_was_asked(tmp_path: Path) -> N
     ]  # fmt: skip
 
 
+def test_a_repeated_request_without_directions_is_no_response(tmp_path: Path) -> None:
+    capture = tmp_path / "line.pcapng"
+    read, answer = "010400000008", "010410" + "0001" * 8
+    bodies = (read, read, read, answer, "014625", "014625", "014625ff", read, "0104", "01840200")
+    write_capture(capture, [RTU], [Frame(framed(body)) for body in bodies])
+
+    seen = dissect(tmp_path, capture, ("i7000.message", "i7000.fault", "i7000.response_to"))
+
+    assert messages(seen, "i7000.message", "i7000.fault") == [
+        *["ReadInputRegisters"] * 3, "InputRegisters", *["ReadChannelMask"] * 2, "ChannelMask", "ReadInputRegisters",
+        "length", "length",
+    ]  # fmt: skip
+    assert [it["i7000.response_to"] for it in seen] == [[], [], [], ["3"], [], [], ["6"], [], ["8"], ["8"]]
+
+
 def test_link_types_can_be_left_to_other_dissectors(tmp_path: Path) -> None:
     capture = tmp_path / "line.pcapng"
     write_capture(capture, [RTU, DCON], [Frame(framed("014625")), Frame(b"$012\r", None, 1)])

@@ -153,8 +153,9 @@ local function add_pdu(root, data, row, values, places, side, request, range_of,
     end
 end
 
--- Whether a frame is a response: by the direction of the packet, the port, who spoke first, or what was asked.
-local function is_from_module(pinfo, line, data, request)
+-- Whether a frame, here without CRC, is a response: by the direction of the packet, the port, who spoke first, or what
+-- was asked. A host may repeat a request that nobody answered.
+local function is_from_module(pinfo, line, body, request, profile)
     if pinfo.p2p_dir == SENT or pinfo.p2p_dir == RECEIVED then
         return pinfo.p2p_dir == RECEIVED
     elseif pinfo.src_port ~= 0 then
@@ -166,7 +167,10 @@ local function is_from_module(pinfo, line, data, request)
         hosts[line] = hosts[line] or sender
         return hosts[line] ~= sender
     end
-    return request ~= nil and data:byte(1) == request.data:byte(1) and data:byte(2) % 128 == request.data:byte(2)
+    if not request or body:byte(1) ~= request.data:byte(1) or body:byte(2) % 128 ~= request.data:byte(2) then
+        return false
+    end
+    return response_to(body, request, profile) ~= nil or request_of(body, profile) == nil
 end
 
 local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
@@ -179,7 +183,8 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
     local key = line .. (transaction and " " .. transaction or "")
     local request = modbus_pairs.request(pinfo, key, n)
     local body = transaction and data or data:sub(1, -3)
-    local from_module = #body >= 2 and is_from_module(pinfo, line, data, request)
+    local profile = profile_of(interface_of(), #data > 0 and data:byte(1) or nil)
+    local from_module = #body >= 2 and is_from_module(pinfo, line, body, request, profile)
     request = from_module and request or nil
     local fault
     if #data < (transaction and 2 or from_module and 5 or 4) or #data > 256 + (transaction and 4 or 0) then
@@ -187,7 +192,6 @@ local function dissect_adu(tvb, start, data, transaction, pinfo, tree, n)
     elseif not transaction and crc_of(data) ~= 0 then
         fault = "crc"
     end
-    local profile = profile_of(interface_of(), #data > 0 and data:byte(1) or nil)
     local row, values, places
     if not fault then
         if from_module then
