@@ -9117,17 +9117,25 @@ function dcon.init()
     learned_of = {}
 end
 
--- Keep what a response shows of a module: the format of its readings, its types. A table once kept never changes, so
--- that every packet is read with what was known at its time.
-local function learn(key, found, profile)
+local function learned_key(line, address)
+    return line .. "/" .. tostring(address)
+end
+
+-- Keep what a response shows of a module: the format of its readings, its types. What a module acknowledges is in the
+-- command. A table once kept never changes, so that every packet is read with what was known at its time.
+local function learn(line, key, found, request, profile)
     local name, values, before = found.message.name, found.values, learned_of[key] or {}
-    if name == "Configuration" then
+    if name == "Acknowledged" then
+        name, values = request.command.name, request.values
+    end
+    if name == "Configuration" or name == "SetConfiguration" then
         local one = TYPES[values.type_code] and not (profile.model and profile.model.mixed_types == "ignored")
-        learned_of[key] = {
+        learned_of[key] = nil
+        learned_of[values.new_address and learned_key(line, values.new_address) or key] = {
             format = FORMATS[bits(values.report_settings, 0, 2)] or before.format,
             types = one and { values.type_code } or before.types,
         }
-    elseif name == "ChannelTypeCode" and TYPES[values.type_code] then
+    elseif (name == "ChannelTypeCode" or name == "SetChannelTypeCode") and TYPES[values.type_code] then
         local types = {}
         for channel = 0, (channels_of(profile) or 20) - 1 do
             local old = type_of({ model = profile.model, types = before.types }, channel)
@@ -9231,8 +9239,9 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
     local body = frame:gsub("\r$", "")
     local request = is_response and dcon_pairs.request(pinfo, line, n) or nil
     local address = request and request.values.address or tonumber(body:match("^.(%x%x)") or "", 16)
-    local learned = line .. "/" .. tostring(address)
-    local profile = with_learned(profile_of(interface, address), request and request.learned)
+    local learned = learned_key(line, address)
+    local given = profile_of(interface, address)
+    local profile = with_learned(given, request and request.learned)
     add_preference_fault(root, dcon_made)
     local found = { fault = frame_fault(frame, is_response and RESPONSES_BEGIN or COMMANDS_BEGIN) }
     if not found.fault and is_response and not request then
@@ -9249,12 +9258,23 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         if with == nil and request then
             with = request.with_checksum
         end
-        found = read_body(body, with, function(text)
-            if is_response then
-                return response_of(text, request, profile)
+        local function read(known)
+            return read_body(body, with, function(text)
+                if is_response then
+                    return response_of(text, request, known)
+                end
+                return command_of(text, known)
+            end)
+        end
+        found = read(profile)
+        -- What was learned may be out of date, so it is no reason for a fault.
+        local fresh = found.fault and profile ~= given and read(given)
+        if fresh and not fresh.fault then
+            found, profile = fresh, given
+            if not pinfo.visited then
+                learned_of[learned] = nil
             end
-            return command_of(text, profile)
-        end)
+        end
     end
     if found.message then
         add_message(root, found, range_of, request, profile)
@@ -9268,7 +9288,7 @@ local function dissect_frame(tvb, start, frame, pinfo, tree, n)
         if not found.fault then
             dcon_pairs.answer(pinfo, request)
             if not pinfo.visited then
-                learn(learned, found, profile)
+                learn(line, learned, found, request, profile)
             end
         end
     elseif not is_response then

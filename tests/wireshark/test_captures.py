@@ -280,6 +280,42 @@ def test_format_and_types_are_taken_from_what_the_line_shows(tmp_path: Path) -> 
     assert [readings(seen[at]) for at in (5, 9)] == [["686 degC", "686 degC"], ["686 degC", "1.25 V"]]
 
 
+def test_what_a_module_acknowledges_is_learned_too(tmp_path: Path) -> None:
+    hexadecimal, percent = ("%0102080602", "!02"), ("%02010F0601", "!01")
+    texts = ("$012", "!01080600", *hexadecimal, "#02", ">4000C000", *percent, "#01", ">+050.00+050.00")
+    channel = ("$017C1R05", "!01", "#01", ">+050.00+050.00", "%0101080600", "?01", "#01", ">+050.00+050.00")
+    seen = line(tmp_path, *texts, *channel, "#02", ">4000", preferences={}, fields=READING)
+
+    assert not any(it["dcon.fault"] for it in seen)
+    assert [it[:8] for it in seen[5]["dcon.reading.value"]] == ["5.000152", "-5"]
+    assert seen[5]["dcon.reading.unit"] == ["V", "V"]
+    assert readings(seen[9]) == ["686 degC", "686 degC"]
+    assert [readings(seen[at]) for at in (13, 17)] == [["686 degC", "1.25 V"]] * 2
+    assert seen[19]["dcon.reading.unit"] == []
+
+
+@pytest.mark.parametrize(
+    ("learned", "reading", "value"),
+    [("00", ">4000", []), ("01", ">+1.2345", ["1.2345"]), ("02", ">+1.2345", ["1.2345"])],
+)
+def test_what_was_learned_is_dropped_when_a_response_does_not_fit_it(
+    tmp_path: Path, learned: str, reading: str, value: list[str]
+) -> None:
+    texts = ("$012", f"!010806{learned}", "#01", reading, "#01", ">+1.2345", "#01", ">12345")
+    seen = line(tmp_path, *texts, preferences={}, fields=READING)
+
+    assert [it["dcon.fault"] for it in seen] == [[]] * 7 + [["length"]]
+    assert [seen[at]["dcon.reading.value"] for at in (3, 5)] == [value, ["1.2345"]]
+    assert [seen[at]["dcon.reading.unit"] for at in (3, 5)] == [[], []]
+
+
+def test_a_response_that_does_not_fit_the_format_that_is_set_has_a_fault(tmp_path: Path) -> None:
+    preferences = {"i7000_types": "V_10", "i7000_format": "engineering"}
+    seen = line(tmp_path, "$012", "!01080602", "#01", ">4000", preferences=preferences, fields=READING)
+
+    assert [it["dcon.fault"] for it in seen] == [[], [], [], ["length"]]
+
+
 def test_a_second_pass_reads_each_packet_with_what_was_known_at_its_time(tmp_path: Path) -> None:
     capture = tmp_path / "line.pcapng"
     texts = ("#01", ">+050.00", "$012", "!010F0601", "#01", ">+050.00")
