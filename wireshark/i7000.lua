@@ -2,7 +2,7 @@
 --
 -- Generated from spec/ by: python -m wireshark.generate
 -- Install: copy this file into the folder that Help, About Wireshark, Folders names Personal Lua Plugins.
--- wireshark/README.md explains preferences and fields. Wireshark 4.0 or later. MIT licence.
+-- wireshark/README.md explains preferences and fields. Tested with Wireshark 4.0. MIT licence.
 
 local MODELS = {
     {
