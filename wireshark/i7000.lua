@@ -8357,11 +8357,16 @@ local function value_of_word(word, kind)
     return number * kind.max / (number >= 0 and 32767 or 32768)
 end
 
+-- The special texts of either format are special in both (E48).
+local OTHER_TEXT_FORMAT = { engineering = "percent", percent = "engineering" }
+
 -- Read the text of a channel: its value, unit and status, or a note instead. The value of an unknown type is what the
 -- text says, without unit.
 local function reading_of_text(text, format, kind, legacy)
     local blanks = text:match("^ +$") and "disabled"
-    local status = blanks or kind and special(text, format, kind.code, legacy)
+    local other = OTHER_TEXT_FORMAT[format]
+    local status = blanks or kind and (special(text, format, kind.code, legacy)
+        or other and special(text, other, kind.code, legacy))
     if status then
         return nil, kind and kind.unit, status
     end
@@ -8570,7 +8575,7 @@ local SHAPES = {
         return #text == 7 and text:match("^[+-]%d+%.%d+$") ~= nil and text:find(".", 1, true) <= 6
     end,
     percent = function(text)
-        return text:match("^[+-]%d%d%d%.%d%d$") ~= nil
+        return (text:match("^[+-]%d%d%d%.%d%d$") or text:match("^[+-]9999%.9$")) ~= nil
     end,
     hex = function(text)
         return text:match("^[%dA-F][%dA-F][%dA-F][%dA-F]$") ~= nil

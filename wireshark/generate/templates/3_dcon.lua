@@ -33,7 +33,7 @@ local SHAPES = {
         return #text == 7 and text:match("^[+-]%d+%.%d+$") ~= nil and text:find(".", 1, true) <= 6
     end,
     percent = function(text)
-        return text:match("^[+-]%d%d%d%.%d%d$") ~= nil
+        return (text:match("^[+-]%d%d%d%.%d%d$") or text:match("^[+-]9999%.9$")) ~= nil
     end,
     hex = function(text)
         return text:match("^[%dA-F][%dA-F][%dA-F][%dA-F]$") ~= nil
