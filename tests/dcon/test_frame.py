@@ -54,6 +54,13 @@ def test_the_fault_of_the_longest_frame_is_not_its_length() -> None:
     assert Fault.TERMINATOR is caught.value.fault
 
 
+def test_the_fault_of_noise_is_the_first_byte_that_no_frame_has() -> None:
+    (noise,), _ = split(b"$0\xff" + b"0" * LONGEST_FRAME + b"\xff\r")
+
+    assert isinstance(noise, Noise)
+    assert Fault.CHARACTER is noise.fault
+
+
 def test_less_than_a_frame_is_kept_whatever_comes() -> None:
     for junk in (b"$", b"x", b"\xff", b"$0", b"\r", b"!" + b"0" * 300):
         _, rest = split(junk * 10_000)
