@@ -226,15 +226,21 @@ def test_the_error_for_a_number_of_more_than_20_digits_has_its_length(path: Path
     assert error.reason == f"cannot be {shown}"
 
 
+@pytest.mark.no_cover
 def test_a_key_that_is_there_twice_is_found_in_linear_time(path: Path) -> None:
-    keys = ", ".join(f'"{number}": 0' for number in range(100_000))
-    path.write_text(f'{{{keys}, "99999": 0}}')
-    began = process_time()
+    def seconds(count: int) -> float:
+        """The least time of three, with the last of so many keys twice."""
+        keys = ", ".join(f'"{number}": 0' for number in range(count))
+        path.write_text(f'{{{keys}, "{count - 1}": 0}}')
+        times = []
+        for _ in range(3):
+            began = process_time()
+            with pytest.raises(MemoryFileError, match=f"cannot be an object that has '{count - 1}' twice"):
+                load(path)
+            times.append(process_time() - began)
+        return min(times)
 
-    with pytest.raises(MemoryFileError, match="cannot be an object that has '99999' twice"):
-        load(path)
-
-    assert process_time() - began < 2
+    assert seconds(100_000) < 30 * seconds(10_000)
 
 
 @pytest.mark.parametrize("keep", [1, 100, 500, -3])
