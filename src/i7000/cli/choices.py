@@ -7,9 +7,11 @@ from typing import Any
 from i7000 import Filter, Protocol
 from i7000.cli.words import UsageError, member, near
 
-__all__ = ["FILTERS", "PROTOCOLS", "chosen", "protocol_word"]
+__all__ = ["FILTERS", "PROTOCOLS", "SPOKEN", "chosen", "protocol_word"]
 
 PROTOCOLS = {"dcon": Protocol.DCON, "rtu": Protocol.MODBUS_RTU}
+SPOKEN = {protocol: word for word, protocol in PROTOCOLS.items()}
+"""The words of the protocols, as every command prints them."""
 _WHOLE = Protocol.MODBUS_RTU.name.lower()
 """What Modbus RTU is called by its enumeration; the terminal reads it, and writes ``rtu``."""
 FILTERS = {"50hz": Filter.REJECT_50_HZ, "60hz": Filter.REJECT_60_HZ} | {one.name.lower(): one for one in Filter}

@@ -14,7 +14,7 @@ from attrs import define, evolve, field, frozen
 
 from i7000 import Protocol
 from i7000.cli.asked import LEFT_CHANGED, Asked
-from i7000.cli.choices import protocol_word
+from i7000.cli.choices import SPOKEN
 from i7000.cli.keeping import home_of
 from i7000.cli.progress import Draw, note_estimate, progress
 from i7000.cli.reached import OpenLine, Reached, reach
@@ -222,7 +222,7 @@ def _case(this: _Run, plan: Plan, outcome: str, printer: Printer) -> dict[str, o
         "schema_version": 1,
         "target": plan.asked.target,
         "address": module.address,
-        "protocol": protocol_word(module.protocol.name.lower()),
+        "protocol": SPOKEN[module.protocol],
         "profile": module.profile.name,
         "seed": plan.seed,
         "outcome": outcome,

@@ -8,16 +8,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from i7000 import __version__, describe, spec
+from i7000.cli.choices import SPOKEN
 from i7000.cli.judge_schema import SCHEMA_VERSION
-from i7000.cli.options import PROTOCOLS
 from i7000.cli.readers import Missing, Read, stamped
 from i7000.cli.records import frame_words
 from i7000.cli.text import Line, Printer
 from i7000.conformance.judge import Finding, Judge, Level, Rule, Tally, Verdict, judge, verdict
 
 __all__ = ["Judging"]
-
-_PROTOCOLS = {protocol: name for name, protocol in PROTOCOLS.items()}
 
 
 class Judging:
@@ -98,7 +96,7 @@ def _record(finding: Finding, read: Read) -> dict[str, Any]:
         "number": finding.place.number,
         "line": read.line,
         "time": read.time,
-        "protocol": _PROTOCOLS[finding.protocol],
+        "protocol": SPOKEN[finding.protocol],
         "frame": frame_words(finding.wire, finding.protocol),
         "wire": finding.wire.hex(),
     }

@@ -14,7 +14,7 @@ from typing import Any
 from attrs import frozen
 
 from i7000 import Profile, Reading, Status, TypeCode, describe
-from i7000.cli.choices import PROTOCOLS
+from i7000.cli.choices import SPOKEN
 from i7000.cli.station import Polled, Station
 from i7000.cli.text import Line, Printer
 from i7000.cli.words import LineError, UsageError
@@ -219,9 +219,6 @@ class Json:
             self._write(json.dumps(_record(it)))
 
 
-_SPOKEN = {protocol: name for name, protocol in PROTOCOLS.items()}
-
-
 def _record(polled: Polled) -> dict[str, Any]:
     """Return what came of reading a module, for JSON."""
     profile, report = polled.profile, polled.report
@@ -231,7 +228,7 @@ def _record(polled: Polled) -> dict[str, Any]:
         "time": _iso(polled.time),
         "address": polled.address,
         "model": None if profile is None else profile.model.value,
-        "protocol": None if polled.protocol is None else _SPOKEN[polled.protocol],
+        "protocol": None if polled.protocol is None else SPOKEN[polled.protocol],
         "answered": polled.answered,
         "reason": polled.reason,
         "channels": [

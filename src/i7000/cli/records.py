@@ -15,7 +15,7 @@ from typing import Any
 from attrs import field, fields, frozen
 
 from i7000 import DecodeError, Fault, LineSettings, ReportSettings, Status, dcon, modbus
-from i7000.cli.options import PROTOCOLS
+from i7000.cli.choices import SPOKEN
 from i7000.cli.readers import Read
 from i7000.dissect import ChannelReading, Heard, Item, Meaning
 from i7000.dissect.meaning import Fit, errata
@@ -39,7 +39,6 @@ __all__ = [
 
 Record = dict[str, Any]
 SCHEMA_VERSION = 1
-_PROTOCOLS = {protocol: name for name, protocol in PROTOCOLS.items()}
 
 _UNKNOWN: Record = {
     "name": None, "title": None, "section": None, "syntax": None, "command": None, "fields": {}, "explained": {},
@@ -87,7 +86,7 @@ def _head_json(read: Read) -> str:
     address, answers = heard.address, heard.answers
     direction = _NULL if heard.direction is None else _quoted(heard.direction)
     return (
-        f'{place}"protocol": "{_PROTOCOLS[heard.protocol]}", "direction": {direction}, '
+        f'{place}"protocol": "{SPOKEN[heard.protocol]}", "direction": {direction}, '
         f'"address": {_NULL if address is None else address}, '
         f'"frame": {_quoted(frame_words(heard.wire, heard.protocol))}, '
         f'"wire": "{heard.wire.hex()}", "answers": {_NULL if answers is None else answers.number}'

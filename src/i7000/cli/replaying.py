@@ -9,7 +9,7 @@ import signal
 from attrs import frozen
 
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, asked_of
-from i7000.cli.choices import protocol_word
+from i7000.cli.choices import SPOKEN
 from i7000.cli.harm import HarmOptions
 from i7000.cli.keeping import Keeper, home_of
 from i7000.cli.options import UNKNOWN, Module
@@ -168,7 +168,7 @@ def _check_same(report: Report, before: Snapshot, there: Reached) -> None:
         "model": before.model.value,
         "name": before.name,
         "address": there.address,
-        "protocol": protocol_word(before.protocol.name.lower()),
+        "protocol": SPOKEN[before.protocol],
     }
     for name, value in found.items():
         if report.module.get(name) != value:

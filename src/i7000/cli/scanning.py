@@ -13,7 +13,7 @@ from attrs import frozen
 from rich.progress import BarColumn, Progress, TextColumn
 
 from i7000 import BaudRate, LineSettings, Protocol, describe
-from i7000.cli.choices import PROTOCOLS
+from i7000.cli.choices import SPOKEN
 from i7000.cli.durations import duration_words
 from i7000.cli.port import broken_off_by_signals, opened
 from i7000.cli.silence import protocol_words
@@ -143,9 +143,6 @@ def _table(modules: list[Found]) -> Iterator[Spans]:
         yield [("  ".join(map(str.ljust, cells, widths)).rstrip(), "" if number else "bold")]
 
 
-_SPOKEN = {protocol: name for name, protocol in PROTOCOLS.items()}
-
-
 def _record(found: Found) -> dict[str, Any]:
     place = found.place
     return {
@@ -153,7 +150,7 @@ def _record(found: Found) -> dict[str, Any]:
         "address": place.address,
         "baud_rate": _rate(place.line),
         "character_format": place.line.character_format.name,
-        "protocol": _SPOKEN[place.protocol],
+        "protocol": SPOKEN[place.protocol],
         "checksum": place.checksum if place.protocol is Protocol.DCON else None,
         "name": found.identified.name,
         "firmware": found.firmware,
@@ -171,7 +168,7 @@ def _stored_record(stored: Stored) -> dict[str, Any]:
         "address": stored.address,
         "baud_rate": None if stored.line is None else _rate(stored.line),
         "character_format": None if stored.line is None else stored.line.character_format.name,
-        "protocol": None if stored.protocol is None else _SPOKEN[stored.protocol],
+        "protocol": None if stored.protocol is None else SPOKEN[stored.protocol],
         "checksum": stored.checksum,
     }
 

@@ -221,7 +221,6 @@ class Subject:
         """Pass bytes to the guard, and count those with which a module would change its EEPROM.
 
         Shape: returns whether they may change settings.
-
         Errors: `GuardError`; `Skipped` if all writes of the run are used up.
         """
         self.guard, hazards = self.guard.judged(wire, self.line)

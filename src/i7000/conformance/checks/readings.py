@@ -50,10 +50,11 @@ def agree(module: Subject, one: Ask, other: Ask) -> Procedure[None]:
         found = _difference(module.profile.type_codes, before, between, after)
         if found is None:
             return
-        if not left and isinstance(found, Difference):
+        if left:
+            continue
+        if isinstance(found, Difference):
             raise module.wrong(found.text, found.sent, found.received, found.expected)
-        if not left:
-            raise found
+        raise found
 
 
 def _difference(types: Sequence[TypeCode], before: Asked, between: Asked, after: Asked) -> Difference | Unclear | None:
