@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from functools import partial
 from hashlib import sha256
 from typing import TYPE_CHECKING
 
@@ -112,9 +111,10 @@ def _file(path: Path, data: Record | None) -> Record:
 
 
 def _sections(loaded: dict[Path, Record]) -> Iterator[Record]:
-    found: dict[str, Record] = defaultdict(partial(_empty, ""))
+    found: dict[str, Record] = defaultdict(_empty)
     for path, data in loaded.items():
-        kind, file = lint.name(path).partition("/")[0], lint.name(path)
+        file = lint.name(path)
+        kind = file.partition("/")[0]
         for record in lint.records(data):
             for section in _sections_of(record, data):
                 _add(found[section], kind, file, record)
@@ -122,20 +122,11 @@ def _sections(loaded: dict[Path, Record]) -> Iterator[Record]:
     order = [row["key"] for row in loaded[lint.SPEC / "tables" / "settings.json"]["rows"]]
     for section in sorted(found, key=place):
         settings = [*found[section]["settings"], *codes.get(section, ())]
-        yield found[section] | {"section": section, "settings": sorted(set(settings), key=order.index)}
+        yield {"section": section, **found[section], "settings": sorted(set(settings), key=order.index)}
 
 
-def _empty(section: str) -> Record:
-    return {
-        "section": section,
-        "requests": [],
-        "rows": [],
-        "vectors": [],
-        "stories": [],
-        "errata": [],
-        "settings": [],
-        "checks": [],
-    }
+def _empty() -> Record:
+    return {name: [] for name in ("requests", "rows", "vectors", "stories", "errata", "settings", "checks")}
 
 
 def _sections_of(record: Record, data: Record) -> list[str]:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.spec import lint
+from tests.spec.pages import PAGES
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-PAGES = sorted(lint.SPEC.glob("*.md"))
 TEXTS = [*PAGES, *lint.data_files(), *lint.schema_files()]
 OUTSIDE = re.compile(
     r"\bsrc/\S*|\btests?[/.][a-z]\S*|\bpytest\b|\bpython\b|\S+\.py\b|\bi7000\b|\.\./\S*", re.IGNORECASE
