@@ -8638,6 +8638,16 @@ local function read_readings(text, part, profile)
     return fields
 end
 
+local function read_text(text, is_valid)
+    local fault, at = bad_character(text)
+    if fault then
+        return nil, fault, at
+    elseif not is_valid then
+        return nil, "value", 1
+    end
+    return text
+end
+
 -- How the text of a part becomes a value; or nil, a fault and its place in the text.
 local READERS = {
     hex = read_digits,
@@ -8666,24 +8676,10 @@ local READERS = {
         return tonumber((text:gsub("^%+", "")))
     end,
     name = function(text, _, _, is_response)
-        local fault, at = bad_character(text)
-        if not fault and is_response and is_other_answer(text) then
-            fault, at = "value", 1
-        end
-        if fault then
-            return nil, fault, at
-        end
-        return text
+        return read_text(text, not (is_response and is_other_answer(text)))
     end,
     version = function(text)
-        local fault, at = bad_character(text)
-        if not fault and not text:match("^%u%d%.%d%d?$") then
-            fault, at = "value", 1
-        end
-        if fault then
-            return nil, fault, at
-        end
-        return text
+        return read_text(text, text:match("^%u%d%.%d%d?$"))
     end,
     reading = read_readings,
     readings = read_readings,
@@ -9430,8 +9426,8 @@ local CONVERTERS = {
     end,
 }
 
--- Take a frame apart by the tokens of its PDU: values, places (of fields), or nil and a fault. `check` looks at the
--- values that the order of checks has before reserved bytes.
+-- Take a frame apart by the tokens of its PDU: row, values, places (of fields), or nil and a fault. `check` looks at
+-- the values that the order of checks has before reserved bytes.
 local function take_apart(row, side, data, profile, check)
     local at, places, values, reserved = 1, {}, {}, false
     local numbers = {}
@@ -9476,7 +9472,7 @@ local function take_apart(row, side, data, profile, check)
             values[place[1]] = numbers[place[1]]
         end
     end
-    return values, places
+    return row, values, places
 end
 
 local function bytes_needed(row, count)
@@ -9508,17 +9504,13 @@ local function request_of(data, profile)
     elseif data:byte(1) == 0 and not row.broadcast then
         return nil, "address"
     end
-    local values, places = take_apart(row, "request", data, profile, function(numbers)
+    return take_apart(row, "request", data, profile, function(numbers)
         local count = numbers.count
         if count and (count < row.minimum_count or count > row.maximum_count or numbers.start + count > 65536) then
             return "range"
         end
         return count and numbers.bytes and numbers.bytes ~= bytes_needed(row, count) and "count" or nil
     end)
-    if not values then
-        return nil, places
-    end
-    return row, values, places
 end
 
 local EXCEPTION = {
@@ -9558,7 +9550,7 @@ local function response_to(data, request, profile)
         return nil, "sub_function"
     end
     local asked = request and request.row and request.values
-    local values, places = take_apart(row, "response", data, profile, function(numbers)
+    return take_apart(row, "response", data, profile, function(numbers)
         if asked and numbers.bytes and numbers.bytes ~= bytes_needed(row, asked.count) then
             return "count"
         end
@@ -9567,10 +9559,6 @@ local function response_to(data, request, profile)
         end
         return has_reserved_bits(row, numbers, asked, profile) and "reserved" or nil
     end)
-    if not values then
-        return nil, places
-    end
-    return row, values, places
 end
 
 local AREAS = {

@@ -5,7 +5,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from c.generate.values import numbered, upper
+from c.generate.values import Value, number, numbered, upper
 
 __all__ = ["FORMATS", "STATUSES", "Record", "Spec", "firmware"]
 
@@ -18,16 +18,15 @@ STATUSES = numbered(("ok", "over_range", "under_range", "disabled"))
 _MAPS = "tables/modbus_registers/*.json"
 
 
-def firmware(version: str | None) -> int:
-    """Return a version as ``I7000_FIRMWARE`` does; 0 for any.
+def firmware(version: str) -> Value:
+    """Return a version as ``I7000_FIRMWARE`` makes it.
 
-    >>> hex(firmware("B2.10")), firmware(None)
-    ('0x42020a', 0)
+    >>> firmware("B2.10").source, firmware("B2.10").proof.hex()
+    ("I7000_FIRMWARE('B', 2, 10)", '0a024200')
     """
-    if version is None:
-        return 0
-    major, minor = version[1:].split(".")
-    return ord(version[0]) << 16 | int(major) << 8 | int(minor)
+    letter, (major, minor) = version[0], version[1:].split(".")
+    value = ord(letter) << 16 | int(major) << 8 | int(minor)
+    return number(value, f"I7000_FIRMWARE('{letter}', {major}, {minor})")
 
 
 class Spec:

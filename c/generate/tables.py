@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from c.generate.spec import FORMATS, STATUSES, Record, Spec, field_of, firmware
-from c.generate.values import Value, items, number, numbered, optional_text, row, text, upper
+from c.generate.values import Value, enumerator, items, number, numbered, optional_text, row, text
 
 __all__ = ["KINDS", "NEVER", "TOKENS", "WIDTHS", "Table", "tables"]
 
@@ -24,8 +24,9 @@ TOKENS = numbered(
 )  # fmt: skip
 AREAS = numbered(("coil", "discrete_input", "input_register", "holding_register"))
 ACCESS = {"R": 1, "W": 2, "R/W": 3}
-REGISTER_TYPES = ("bool", "reading", "uint16", "int16", "int8", "uint32", "code", "bits", "record")
+REGISTER_TYPES = numbered(("bool", "reading", "uint16", "int16", "int8", "uint32", "code", "bits", "record"))
 UNITS = ("mV", "V", "mA", "degC")
+UNIT_NUMBERS = numbered(unit.upper() for unit in UNITS)
 
 
 class Table(NamedTuple):
@@ -59,16 +60,11 @@ def tables(spec: Spec) -> list[Table]:
     ]
 
 
-def _enum(prefix: str, key: str, value: int) -> Value:
-    return number(value, f"I7000_{prefix}_{upper(key)}")
-
-
 def _firmware(version: str | None, *, none: int = 0) -> Value:
     """Return a version; `none` is what None means."""
     if version is None:
         return number(none, "I7000_NEVER" if none else "I7000_ANY")
-    major, minor = version[1:].split(".")
-    return number(firmware(version), f"I7000_FIRMWARE('{version[0]}', {major}, {minor})")
+    return firmware(version)
 
 
 def _bits(mask: int) -> Value:
@@ -89,7 +85,7 @@ def _type(it: Record) -> Value:
     counts = (number(round(it[end] * 10**decimals)) for end in ("minimum", "maximum", "max"))
     words = (number(int(it[end], 16), f"0x{it[end]}") for end in ("hex_min", "hex_max"))
     return row(
-        text(it["name"]), _enum("UNIT", it["unit"].upper(), UNITS.index(it["unit"])), number(decimals),
+        text(it["name"]), enumerator("UNIT", UNIT_NUMBERS, it["unit"].upper()), number(decimals),
         number(it["hex_signed"]), number(it["thermocouple"] is not None), *counts, *words,
         number(it["modbus_min"]), number(it["modbus_max"]), number(it["modbus_counts_per_unit"]),
         text(it["percent_min"]), text(it["percent_max"]),
@@ -100,7 +96,7 @@ def _sentinel(it: Record) -> Value:
     is_word = isinstance(it["value"], int)
     types = _ALL_TYPES if it["types"] is None else sum(1 << int(code, 16) for code in it["types"])
     return row(
-        _enum("STATUS", it["name"], STATUSES[it["name"]]), _enum("FORMAT", it["format"], FORMATS[it["format"]]),
+        enumerator("STATUS", STATUSES, it["name"]), enumerator("FORMAT", FORMATS, it["format"]),
         number(it["until"] is not None), _bits(types),
         optional_text(None if is_word else it["value"]), number(it["value"] & 0xFFFF if is_word else 0),
     )  # fmt: skip
@@ -152,7 +148,7 @@ def _command(it: Record, spec: Spec) -> Value:
 
 
 def _message(protocol: str, name: str | None, names: dict[str, int]) -> Value:
-    return number(0xFF, "I7000_NO_MESSAGE") if name is None else _enum(protocol, name, names[name])
+    return number(0xFF, "I7000_NO_MESSAGE") if name is None else enumerator(protocol, names, name)
 
 
 def _parts(parts: list[Record], fields: list[Record], spec: Spec) -> Value:
@@ -166,8 +162,8 @@ def _part(it: Record, field: Record | None, spec: Spec) -> Value:
     digits = field["digits"] if isinstance(field["digits"], list) else [field["digits"]]
     name, width = it["field"] or "none", field["digits_by"] or "fixed"
     return row(
-        text(field["notation"]), _enum("FIELD", name, spec.fields[name]), _enum("KIND", it["kind"], KINDS[it["kind"]]),
-        _enum("WIDTH", width, WIDTHS[width]), number(min(digits)), number(max(digits)), *_limits(field),
+        text(field["notation"]), enumerator("FIELD", spec.fields, name), enumerator("KIND", KINDS, it["kind"]),
+        enumerator("WIDTH", WIDTHS, width), number(min(digits)), number(max(digits)), *_limits(field),
     )  # fmt: skip
 
 
@@ -206,8 +202,8 @@ def _token(token: str, fields: dict[str, Record], spec: Spec) -> Value:
         kind = "mask" if field["bytes_by"] else field["kind"]
     width = field["bytes"] if isinstance(field["bytes"], int) else 0
     return row(
-        _enum("TOKEN", kind, TOKENS[kind]), number(width), number(int(token, 16) if kind == "literal" else 0),
-        _enum("FIELD", name or "none", spec.fields[name or "none"]), *_limits(field),
+        enumerator("TOKEN", TOKENS, kind), number(width), number(int(token, 16) if kind == "literal" else 0),
+        enumerator("FIELD", spec.fields, name or "none"), *_limits(field),
     )  # fmt: skip
 
 
@@ -224,8 +220,8 @@ def _register(it: Record, models: list[str], spec: Spec) -> Value:
     scale = number(0 if it["scale"] is None else round(1 / it["scale"]))
     return row(
         text(it["name"]), optional_text(it["unit"]), scale, number(int(it["first"])), number(it["address"]),
-        number(it["count"]), _enum("AREA", it["area"], AREAS[it["area"]]), number(ACCESS[it["access"]], _access(it)),
-        _enum("REGISTER", it["type"], REGISTER_TYPES.index(it["type"])), *_limits(it), items(values, "i7000_value"),
+        number(it["count"]), enumerator("AREA", AREAS, it["area"]), number(ACCESS[it["access"]], _access(it)),
+        enumerator("REGISTER", REGISTER_TYPES, it["type"]), *_limits(it), items(values, "i7000_value"),
         _bits(spec.mask(it["models"] or models)), _firmware(it["firmware"]),
     )  # fmt: skip
 

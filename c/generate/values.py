@@ -1,12 +1,12 @@
 """Values of C with their bytes in a digest: numbers, names, strings, wires, rows and lists."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 __all__ = [
-    "Value", "enum", "items", "lines", "number", "numbered", "optional_text", "pointer", "real", "row", "text", "upper",
-    "wire",
+    "Value", "enum", "enumerator", "items", "lines", "number", "numbered", "optional_text", "pointer", "real", "row",
+    "text", "upper", "wire",
 ]  # fmt: skip
 
 
@@ -95,6 +95,11 @@ def _character(byte: int, before: bytes) -> str:
 def escaped(data: bytes) -> str:
     """Return bytes as a string literal of hex escapes."""
     return '"' + "".join(f"\\x{byte:02x}" for byte in data) + '"'
+
+
+def enumerator(prefix: str, values: Mapping[str, int], key: str) -> Value:
+    """Return the number of a key as the constant ``I7000_PREFIX_KEY``."""
+    return number(values[key], f"I7000_{prefix}_{upper(key)}")
 
 
 def upper(name: str) -> str:

@@ -7,8 +7,20 @@ from typing import NamedTuple
 
 from c.generate.header import definition, filled
 from c.generate.spec import FORMATS, STATUSES, Record, Spec, firmware
-from c.generate.tables import UNITS
-from c.generate.values import Value, items, number, numbered, optional_text, pointer, real, row, text, upper, wire
+from c.generate.tables import UNIT_NUMBERS
+from c.generate.values import (
+    Value,
+    enumerator,
+    items,
+    number,
+    optional_text,
+    pointer,
+    real,
+    row,
+    text,
+    upper,
+    wire,
+)
 
 __all__ = ["Section", "sections", "vectors_header"]
 
@@ -122,7 +134,7 @@ class _Vector(NamedTuple):
     @property
     def source(self) -> Value:
         """Where it comes from."""
-        return _enum("SOURCE", SOURCES, self.it["source"])
+        return enumerator("SOURCE", SOURCES, self.it["source"])
 
     @property
     def flags(self) -> Value:
@@ -142,34 +154,25 @@ class _Vector(NamedTuple):
 
     def fault(self) -> Value:
         """Its fault."""
-        return _enum("FAULT", self.spec.faults, self.it.get("fault") or "none")
-
-
-def _enum(prefix: str, values: dict[str, int], key: str) -> Value:
-    return number(values[key], f"I7000_{prefix}_{upper(key)}")
+        return enumerator("FAULT", self.spec.faults, self.it.get("fault") or "none")
 
 
 def _enums_of(prefix: str, values: dict[str, int], keys: Iterable[str] | None) -> Value:
     """Return an array of enumerators as a pointer alone."""
-    found = items([_enum(prefix, values, key) for key in keys or ()], "uint8_t")
+    found = items([enumerator(prefix, values, key) for key in keys or ()], "uint8_t")
     return Value(found.source.rpartition(", ")[0], found.proof)
 
 
 def _profile(it: Record, spec: Spec) -> Value:
-    version = it["firmware"]
-    known = (
-        number(firmware(version), f"I7000_FIRMWARE('{version[0]}', {version[1:].replace('.', ', ')})")
-        if version
-        else number(0xFFFFFFFE, "I7000_NEWEST")
-    )
+    known = firmware(it["firmware"]) if it["firmware"] else number(0xFFFFFFFE, "I7000_NEWEST")
     model = spec.models[it["model"]]
     types = it["type_codes"]
     codes = [number(code) for code in types] + [number(0)] * (20 - len(types))
     listed = Value("{" + ", ".join(str(code) for code in types) + "}", b"".join(code.proof for code in codes))
     modbus_format = f"modbus_{it.get('modbus_data_format', 'hex')}"
     return row(
-        number(model, f"I7000_MODEL_{spec.model_keys[model]}"), _enum("FORMAT", FORMATS, it["data_format"]),
-        _enum("FORMAT", FORMATS, modbus_format), number(it["checksum"]), number(it["single_ended"]),
+        number(model, f"I7000_MODEL_{spec.model_keys[model]}"), enumerator("FORMAT", FORMATS, it["data_format"]),
+        enumerator("FORMAT", FORMATS, modbus_format), number(it["checksum"]), number(it["single_ended"]),
         number(len(types)), known, listed,
     )  # fmt: skip
 
@@ -179,12 +182,12 @@ def _message(it: Record | None, folder: str, spec: Spec) -> Value | None:
         return None
     protocol, names = ("MODBUS", spec.modbus) if folder == "modbus" else ("DCON", spec.dcon)
     fields = [_field(name, value, folder, spec) for name, value in it["fields"].items()]
-    return row(_enum(protocol, names, it["type"]), items(fields, "i7000_vector_field"))
+    return row(enumerator(protocol, names, it["type"]), items(fields, "i7000_vector_field"))
 
 
 def _field(name: str, value: object, folder: str, spec: Spec) -> Value:
     """Return a field with what it has alone, the rest being zero."""
-    field = _enum("FIELD", spec.fields, name)
+    field = enumerator("FIELD", spec.fields, name)
     parts = {"number": number(0), "text": optional_text(None), "texts": items([], ""), "words": items([], "")}
     if isinstance(value, str) and name == "values":
         key, found = "words", items([number(int(bit)) for bit in value], "uint16_t")
@@ -216,7 +219,7 @@ def _exchange(vector: _Vector) -> Value:
     it = vector.it
     asked = "command" if vector.folder == "dcon" else "request"
     return row(
-        *vector.names, vector.profile, number(OUTCOMES[it["outcome"]], f"I7000_OUTCOME_{upper(it['outcome'])}"),
+        *vector.names, vector.profile, enumerator("OUTCOME", OUTCOMES, it["outcome"]),
         vector.fault(), vector.source, vector.flags, vector.wire(f"{asked}_wire"), vector.message(asked),
         vector.wire("response_wire"), vector.message("response"),
     )  # fmt: skip
@@ -226,8 +229,8 @@ def _reading(vector: _Vector) -> Value:
     it = vector.it
     return row(
         *vector.names, vector.source, vector.flags, number(int(it["type_code"], 16), f"0x{it['type_code']}"),
-        _enum("FORMAT", FORMATS, it["format"]), number(*DIRECTIONS[it.get("direction", "decode")]),
-        _enum("STATUS", STATUSES, it.get("status", "ok")), vector.fault(), text(it["text"]), real(it.get("value")),
+        enumerator("FORMAT", FORMATS, it["format"]), number(*DIRECTIONS[it.get("direction", "decode")]),
+        enumerator("STATUS", STATUSES, it.get("status", "ok")), vector.fault(), text(it["text"]), real(it.get("value")),
     )  # fmt: skip
 
 
@@ -249,10 +252,9 @@ def _reals(values: list[float | None]) -> Value:
 
 def _channels(vector: _Vector) -> Value:
     it = vector.it
-    units = numbered(unit.upper() for unit in UNITS)
     return row(
         *vector.names, vector.source, vector.profile, vector.message("command"), vector.message("response"),
-        _reals(it["values"]), _enums_of("UNIT", units, map(str.upper, it["units"])),
+        _reals(it["values"]), _enums_of("UNIT", UNIT_NUMBERS, map(str.upper, it["units"])),
         _enums_of("STATUS", STATUSES, it["statuses"]),
         number(len(it["values"])),
     )  # fmt: skip
@@ -281,7 +283,7 @@ def _split(vector: _Vector) -> Value:
     is_dcon = "side" not in it
     return row(
         *vector.names, vector.source, number(it.get("checksum", False)),
-        number(SIDES[it.get("side", "requests")], f"I7000_SIDE_{upper(it.get('side', 'requests'))}"), vector.profile,
+        enumerator("SIDE", SIDES, it.get("side", "requests")), vector.profile,
         wire(it["stream"], readable=is_dcon), _events(it["events"], vector, readable=is_dcon),
         wire(it["rest"], readable=is_dcon), _events(it.get("flushed", []), vector, readable=is_dcon),
     )  # fmt: skip
@@ -292,7 +294,7 @@ def _events(found: list[Record], vector: _Vector, *, readable: bool) -> Value:
     return items(
         [
             row(
-                _enum("FAULT", faults, it.get("fault", "none")),
+                enumerator("FAULT", faults, it.get("fault", "none")),
                 wire(it.get("frame", it.get("noise")), readable=readable),
             )
             for it in found

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from tests.interop import program
+from tests.spec.lint import vectors
 from tests.waiting import ENOUGH
 
 ROOT = Path(__file__).parents[2]
@@ -128,6 +129,26 @@ class Lines:
         seen = dissect(folder, capture, fields, *options(i7000_modules=modules), *arguments)
         assert len(self.frames) == len(seen)
         return seen
+
+
+class Dissected(NamedTuple):
+    """A vector, and what tshark says of its frames."""
+
+    vector: dict[str, Any]
+    sent: Seen | None
+    received: Seen | None
+
+
+def vectors_seen(folder: Path, link_type: int, protocol: str, sent: str, fields: Sequence[str]) -> list[Dissected]:
+    """Return every vector of a protocol, dissected in one run; `sent` is what hosts send: command or request."""
+    lines = Lines(link_type)
+    places = []
+    for _, vector in vectors(protocol):
+        sides = ((f"{sent}_wire", True), ("response_wire", False))
+        both = [lines.add(vector["profile"], vector[side], sent=out) if vector[side] else None for side, out in sides]
+        places.append((vector, both))
+    found = lines.dissect(folder, fields)
+    return [Dissected(vector, *(None if at is None else found[at] for at in both)) for vector, both in places]
 
 
 def close(values: Iterable[float | None]) -> list[Any]:

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from tests.spec.lint import SPEC, vectors
-from tests.wireshark import DCON, Lines, Seen, as_written, close
+from tests.spec.lint import SPEC
+from tests.wireshark import DCON, Dissected, Lines, Seen, as_written, close, vectors_seen
 
 KNOWN = ("dcon.message", "dcon.fault", "dcon.reading", "dcon.response_to", "_ws.expert.message")
 COMMANDS = json.loads((SPEC / "tables/dcon_commands.json").read_text("utf-8"))["rows"]
@@ -24,31 +24,10 @@ TWO_FRAMES = "dcon-2.10-two-frames"
 """Two commands in one packet, which the dissector takes apart."""
 
 
-class Vector:
-    """A vector, and what tshark says of its frames."""
-
-    def __init__(self, vector: dict[str, Any], command: Seen | None, response: Seen | None) -> None:
-        self.vector, self.command, self.response = vector, command, response
-
-
 @pytest.fixture(scope="module")
-def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Vector]:
-    """Every DCON vector, dissected in one run: a command, then its response."""
-    lines = Lines(DCON)
-    places = []
-    for _, vector in vectors("dcon"):
-        sides = (("command_wire", True), ("response_wire", False))
-        places.append(
-            (
-                vector,
-                [
-                    lines.add(vector["profile"], vector[side], sent=sent) if vector[side] else None
-                    for side, sent in sides
-                ],
-            )
-        )
-    found = lines.dissect(tmp_path_factory.mktemp("dcon"), [*KNOWN, *(f"dcon.{name}" for name in FIELDS)])
-    return [Vector(vector, *(None if place is None else found[place] for place in both)) for vector, both in places]
+def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Dissected]:
+    fields = [*KNOWN, *(f"dcon.{name}" for name in FIELDS)]
+    return vectors_seen(tmp_path_factory.mktemp("dcon"), DCON, "dcon", "command", fields)
 
 
 def said(message: dict[str, Any], seen: Seen) -> dict[str, Any]:
@@ -62,12 +41,12 @@ def said(message: dict[str, Any], seen: Seen) -> dict[str, Any]:
     return {"type": "".join(seen["dcon.message"]), "fields": fields}
 
 
-def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Vector]) -> None:
+def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Dissected]) -> None:
     checked = 0
     for it in seen:
         if it.vector["outcome"] == "reject":
             continue
-        for side, found in (("command", it.command), ("response", it.response)):
+        for side, found in (("command", it.sent), ("response", it.received)):
             message = it.vector[side]
             if message and found:
                 checked += 1
@@ -75,10 +54,10 @@ def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Vector])
     assert checked > 850
 
 
-def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Vector]) -> None:
+def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Dissected]) -> None:
     checked = 0
     for it in seen:
-        found = it.response or it.command
+        found = it.received or it.sent
         if it.vector["outcome"] == "reject" and found and it.vector["id"] != TWO_FRAMES:
             checked += 1
             assert (it.vector["id"], [it.vector["fault"]]) == (it.vector["id"], found["dcon.fault"])
@@ -86,30 +65,30 @@ def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Vector]) ->
     assert checked > 800
 
 
-def test_what_no_host_sends_is_out_of_range_and_nothing_else(seen: list[Vector]) -> None:
+def test_what_no_host_sends_is_out_of_range_and_nothing_else(seen: list[Dissected]) -> None:
     refused = 0
     for it in seen:
-        if it.vector["command"] and it.command:
-            flagged = any(OUT_OF_RANGE in text for text in it.command["_ws.expert.message"])
+        if it.vector["command"] and it.sent:
+            flagged = any(OUT_OF_RANGE in text for text in it.sent["_ws.expert.message"])
             refused += flagged
             assert (it.vector["id"], "host-refuses" in it.vector["flags"]) == (it.vector["id"], flagged)
     assert refused > 40
 
 
-def test_every_response_names_the_packet_of_its_command(seen: list[Vector]) -> None:
-    paired = [it for it in seen if it.vector["outcome"] in ("response", "refused") and it.response]
+def test_every_response_names_the_packet_of_its_command(seen: list[Dissected]) -> None:
+    paired = [it for it in seen if it.vector["outcome"] in ("response", "refused") and it.received]
 
     assert len(paired) > 400
-    assert all(it.response and it.response["dcon.response_to"] for it in paired)
+    assert all(it.received and it.received["dcon.response_to"] for it in paired)
 
 
-def test_a_refusal_and_every_erratum_of_the_command_are_expert_infos(seen: list[Vector]) -> None:
+def test_a_refusal_and_every_erratum_of_the_command_are_expert_infos(seen: list[Dissected]) -> None:
     errata = {row["name"]: row["errata"] for row in COMMANDS}
     for it in seen:
-        if it.vector["outcome"] == "refused" and it.response and it.command and it.vector["command"]:
+        if it.vector["outcome"] == "refused" and it.received and it.sent and it.vector["command"]:
             name = it.vector["command"]["type"]
-            assert f"Refused: {name}" in it.response["_ws.expert.message"]
-            told = [text.partition(":")[0] for text in it.command["_ws.expert.message"]]
+            assert f"Refused: {name}" in it.received["_ws.expert.message"]
+            told = [text.partition(":")[0] for text in it.sent["_ws.expert.message"]]
             assert errata[name] == [text for text in told if text.startswith("E")]
 
 

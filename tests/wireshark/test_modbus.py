@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from i7000.modbus import crc16
-from tests.spec.lint import SPEC, vectors
-from tests.wireshark import RTU, Lines, Seen, as_written, close
+from tests.spec.lint import SPEC
+from tests.wireshark import RTU, Dissected, Lines, Seen, as_written, close, vectors_seen
 
 KNOWN = ("i7000.message", "i7000.fault", "i7000.response_to", "_ws.expert.message")
 ROWS = [
@@ -23,25 +23,10 @@ FIELDS = sorted(
 OUT_OF_RANGE = "is out of range"
 
 
-class Vector:
-    """A vector, and what tshark says of its frames."""
-
-    def __init__(self, vector: dict[str, Any], request: Seen | None, response: Seen | None) -> None:
-        self.vector, self.request, self.response = vector, request, response
-
-
 @pytest.fixture(scope="module")
-def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Vector]:
-    """Every Modbus vector, dissected in one run: a request, then its response."""
-    lines = Lines(RTU)
-    places = []
-    for _, vector in vectors("modbus"):
-        sides = (("request_wire", True), ("response_wire", False))
-        both = [lines.add(vector["profile"], vector[side], sent=sent) if vector[side] else None for side, sent in sides]
-        places.append((vector, both))
+def seen(tmp_path_factory: pytest.TempPathFactory) -> list[Dissected]:
     fields = [*KNOWN, "i7000.address", *(f"i7000.{name}" for name in FIELDS)]
-    found = lines.dissect(tmp_path_factory.mktemp("modbus"), fields)
-    return [Vector(vector, *(None if place is None else found[place] for place in both)) for vector, both in places]
+    return vectors_seen(tmp_path_factory.mktemp("modbus"), RTU, "modbus", "request", fields)
 
 
 def expected(message: dict[str, Any]) -> dict[str, Any]:
@@ -60,12 +45,12 @@ def said(message: dict[str, Any], seen: Seen) -> dict[str, Any]:
     }
 
 
-def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Vector]) -> None:
+def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Dissected]) -> None:
     checked = 0
     for it in seen:
         if it.vector["outcome"] == "reject":
             continue
-        for side, found in (("request", it.request), ("response", it.response)):
+        for side, found in (("request", it.sent), ("response", it.received)):
             message = it.vector[side]
             if message and found:
                 checked += 1
@@ -77,11 +62,11 @@ def test_every_message_has_the_name_and_values_of_its_vector(seen: list[Vector])
     assert checked > 1_800
 
 
-def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Vector]) -> None:
+def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Dissected]) -> None:
     checked = 0
     for it in seen:
         wire = it.vector["request_wire"] if it.vector["response_wire"] is None else it.vector["response_wire"]
-        found = it.request if it.vector["response_wire"] is None else it.response
+        found = it.sent if it.vector["response_wire"] is None else it.received
         if it.vector["outcome"] == "reject" and wire:
             checked += 1
             assert found
@@ -89,23 +74,23 @@ def test_every_rejected_frame_has_the_fault_of_its_vector(seen: list[Vector]) ->
     assert checked > 500
 
 
-def test_what_no_host_sends_by_46h_is_out_of_range_and_nothing_else(seen: list[Vector]) -> None:
+def test_what_no_host_sends_by_46h_is_out_of_range_and_nothing_else(seen: list[Dissected]) -> None:
     refused = 0
     for it in seen:
-        if it.vector["id"].startswith("modbus-46-") and it.vector["request"] and it.request:
+        if it.vector["id"].startswith("modbus-46-") and it.vector["request"] and it.sent:
             if it.vector["request"]["fields"]["address"] == 0:
                 continue
-            flagged = any(OUT_OF_RANGE in text for text in it.request["_ws.expert.message"])
+            flagged = any(OUT_OF_RANGE in text for text in it.sent["_ws.expert.message"])
             refused += flagged
             assert (it.vector["id"], "host-refuses" in it.vector["flags"]) == (it.vector["id"], flagged)
     assert refused > 20
 
 
-def test_a_request_that_the_map_refuses_has_an_expert_info_and_no_other_has(seen: list[Vector]) -> None:
+def test_a_request_that_the_map_refuses_has_an_expert_info_and_no_other_has(seen: list[Dissected]) -> None:
     flagged, plain = 0, 0
     for it in seen:
-        if it.vector["id"].startswith("modbus-3.4.") and it.vector["request"] and it.request:
-            told = [text for text in it.request["_ws.expert.message"] if not text.startswith("E")]
+        if it.vector["id"].startswith("modbus-3.4.") and it.vector["request"] and it.sent:
+            told = [text for text in it.sent["_ws.expert.message"] if not text.startswith("E")]
             refused = it.vector["outcome"] == "exception"
             flagged, plain = flagged + refused, plain + (not refused)
             assert (it.vector["id"], refused, told) == (it.vector["id"], bool(told), told)
@@ -113,26 +98,26 @@ def test_a_request_that_the_map_refuses_has_an_expert_info_and_no_other_has(seen
     assert plain > 300
 
 
-def test_a_request_that_the_model_does_not_have_has_an_expert_info_and_no_other_has(seen: list[Vector]) -> None:
+def test_a_request_that_the_model_does_not_have_has_an_expert_info_and_no_other_has(seen: list[Dissected]) -> None:
     models = {row["name"]: row["models"] for row in ROWS if row["name"]}
     flagged = 0
     for it in seen:
-        if it.vector["request"] and it.request and it.vector["profile"]["firmware"] is None:
+        if it.vector["request"] and it.sent and it.vector["profile"]["firmware"] is None:
             name, model = it.vector["request"]["type"], it.vector["profile"]["model"]
             missing = models[name] != "all" and model not in models[name]
             flagged += missing
             assert (it.vector["id"], missing) == (
                 it.vector["id"],
-                f"The {model} does not have {name}" in it.request["_ws.expert.message"],
+                f"The {model} does not have {name}" in it.sent["_ws.expert.message"],
             )
     assert flagged > 5
 
 
-def test_every_response_names_the_packet_of_its_request(seen: list[Vector]) -> None:
-    paired = [it for it in seen if it.vector["outcome"] in ("response", "exception") and it.response]
+def test_every_response_names_the_packet_of_its_request(seen: list[Dissected]) -> None:
+    paired = [it for it in seen if it.vector["outcome"] in ("response", "exception") and it.received]
 
     assert len(paired) > 900
-    assert all(it.response and it.response["i7000.response_to"] for it in paired)
+    assert all(it.received and it.received["i7000.response_to"] for it in paired)
 
 
 def framed(body: str) -> str:

@@ -1,9 +1,10 @@
 """What the dissector takes from ``spec/``: its tables, cut down to the columns that it needs."""
 
-import json
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
+
+from c.generate.spec import Spec
 
 __all__ = ["data"]
 
@@ -22,16 +23,13 @@ _SETTINGS_OF_FIELDS = {
 
 def data(folder: Path) -> Record:
     """Return the tables of the dissector by their names, from the files of ``spec/`` in a folder."""
-
-    def rows(name: str) -> list[Record]:
-        return json.loads((folder / name).read_text("utf-8"))["rows"]  # type: ignore[no-any-return] # by its schema
-
-    settings = rows("tables/settings.json")
+    spec = Spec(folder)
+    settings = spec.rows("settings")
     sentinels = [it for it in settings if it["setting"] == "sentinel"]
     bits = [it for it in settings if it["low_bit"] is not None and it["setting"] not in ("default", "init_mode")]
-    commands = [_command(it) for it in rows("tables/dcon_commands.json")]
-    functions = rows("tables/modbus_functions.json")
-    models = rows("tables/models.json")
+    commands = [_command(it) for it in spec.rows("dcon_commands")]
+    functions = spec.rows("modbus_functions")
+    models = spec.rows("models")
     (legacy,) = {last for it in sentinels for last in (it["until"] or {}).values()}
     (exception,) = (it for it in functions if it["function"] == "+80")
     address, values = (
@@ -41,7 +39,7 @@ def data(folder: Path) -> Record:
     return {
         "MODELS": [_model(it, {row["needs"] for row in bits if row["needs"]}) for it in models],
         "SERIES": dict.fromkeys((it["series"] for it in models), True),
-        "TYPES": {int(it["code"], 16): _type(it) for it in rows("tables/type_codes.json")},
+        "TYPES": {int(it["code"], 16): _type(it) for it in spec.rows("type_codes")},
         "LEGACY_UNTIL": legacy,
         "SENTINELS": [_sentinel(it) for it in sentinels],
         "BIT_SETTINGS": [_bit_setting(it) for it in bits],
@@ -51,15 +49,11 @@ def data(folder: Path) -> Record:
         "REFUSED_PARTS": [{"literal": "?", "width": 1}, address],
         "READINGS_PART": values,
         "FUNCTIONS": {int(it["function"], 16): _request(it) for it in functions if it["name"]},
-        "MODULE_SETTINGS": {int(it["sub_function"], 16): _request(it) for it in rows("tables/module_settings.json")},
+        "MODULE_SETTINGS": {int(it["sub_function"], 16): _request(it) for it in spec.rows("module_settings")},
         "EXCEPTION_FIELDS": _fields(exception["response_fields"]),
-        "MAPS": [_map(json.loads(file.read_text("utf-8"))) for file in _maps(folder)],
-        "ERRATA": {it["id"]: _some(it, "what", "reading") for it in rows("errata.json")},
+        "MAPS": [_map(it) for it in spec.maps],
+        "ERRATA": {it["id"]: _some(it, "what", "reading") for it in spec.file("errata.json")["rows"]},
     }
-
-
-def _maps(folder: Path) -> list[Path]:
-    return sorted((folder / "tables/modbus_registers").glob("*.json"))
 
 
 def _some(it: Record, *names: str) -> Record:

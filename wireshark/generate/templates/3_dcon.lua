@@ -96,6 +96,16 @@ local function read_readings(text, part, profile)
     return fields
 end
 
+local function read_text(text, is_valid)
+    local fault, at = bad_character(text)
+    if fault then
+        return nil, fault, at
+    elseif not is_valid then
+        return nil, "value", 1
+    end
+    return text
+end
+
 -- How the text of a part becomes a value; or nil, a fault and its place in the text.
 local READERS = {
     hex = read_digits,
@@ -124,24 +134,10 @@ local READERS = {
         return tonumber((text:gsub("^%+", "")))
     end,
     name = function(text, _, _, is_response)
-        local fault, at = bad_character(text)
-        if not fault and is_response and is_other_answer(text) then
-            fault, at = "value", 1
-        end
-        if fault then
-            return nil, fault, at
-        end
-        return text
+        return read_text(text, not (is_response and is_other_answer(text)))
     end,
     version = function(text)
-        local fault, at = bad_character(text)
-        if not fault and not text:match("^%u%d%.%d%d?$") then
-            fault, at = "value", 1
-        end
-        if fault then
-            return nil, fault, at
-        end
-        return text
+        return read_text(text, text:match("^%u%d%.%d%d?$"))
     end,
     reading = read_readings,
     readings = read_readings,

@@ -73,8 +73,8 @@ local CONVERTERS = {
     end,
 }
 
--- Take a frame apart by the tokens of its PDU: values, places (of fields), or nil and a fault. `check` looks at the
--- values that the order of checks has before reserved bytes.
+-- Take a frame apart by the tokens of its PDU: row, values, places (of fields), or nil and a fault. `check` looks at
+-- the values that the order of checks has before reserved bytes.
 local function take_apart(row, side, data, profile, check)
     local at, places, values, reserved = 1, {}, {}, false
     local numbers = {}
@@ -119,7 +119,7 @@ local function take_apart(row, side, data, profile, check)
             values[place[1]] = numbers[place[1]]
         end
     end
-    return values, places
+    return row, values, places
 end
 
 local function bytes_needed(row, count)
@@ -151,17 +151,13 @@ local function request_of(data, profile)
     elseif data:byte(1) == 0 and not row.broadcast then
         return nil, "address"
     end
-    local values, places = take_apart(row, "request", data, profile, function(numbers)
+    return take_apart(row, "request", data, profile, function(numbers)
         local count = numbers.count
         if count and (count < row.minimum_count or count > row.maximum_count or numbers.start + count > 65536) then
             return "range"
         end
         return count and numbers.bytes and numbers.bytes ~= bytes_needed(row, count) and "count" or nil
     end)
-    if not values then
-        return nil, places
-    end
-    return row, values, places
 end
 
 local EXCEPTION = {
@@ -201,7 +197,7 @@ local function response_to(data, request, profile)
         return nil, "sub_function"
     end
     local asked = request and request.row and request.values
-    local values, places = take_apart(row, "response", data, profile, function(numbers)
+    return take_apart(row, "response", data, profile, function(numbers)
         if asked and numbers.bytes and numbers.bytes ~= bytes_needed(row, asked.count) then
             return "count"
         end
@@ -210,10 +206,6 @@ local function response_to(data, request, profile)
         end
         return has_reserved_bits(row, numbers, asked, profile) and "reserved" or nil
     end)
-    if not values then
-        return nil, places
-    end
-    return row, values, places
 end
 
 local AREAS = {
