@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from c.generate.spec import STATUSES, Spec, constants
-from c.generate.tables import UNITS, Table, tables
+from c.generate.tables import UNITS, Table
 from c.generate.values import Value, enum, lines, numbered, text, upper
 
 __all__ = ["definition", "filled", "header", "name_tables"]
@@ -20,9 +20,8 @@ def filled(template: str, **parts: Iterator[str]) -> str:
     return written
 
 
-def header(spec: Spec) -> str:
-    """Return ``i7000.h``."""
-    found = tables(spec)
+def header(spec: Spec, found: list[Table]) -> str:
+    """Return ``i7000.h`` with some tables."""
     return filled("i7000.h", enums=_enums(spec, found), externs=_externs(spec, found), tables=_definitions(spec, found))
 
 

@@ -5,7 +5,7 @@ from zlib import crc32
 
 from c.generate.header import filled, name_tables
 from c.generate.spec import Spec
-from c.generate.tables import tables
+from c.generate.tables import Table
 from c.generate.values import Value
 from c.generate.vectors import Section
 
@@ -14,13 +14,13 @@ __all__ = ["selftest"]
 _EXCHANGES, _READINGS = "i7000_exchange", "i7000_reading_vector"
 
 
-def selftest(spec: Spec, found: list[Section]) -> str:
-    """Return ``i7000_selftest.c``."""
-    return filled("i7000_selftest.c", checks=_checks(spec, found), totals=_totals(found))
+def selftest(spec: Spec, made: list[Table], found: list[Section]) -> str:
+    """Return ``i7000_selftest.c``, which checks some tables and vectors."""
+    return filled("i7000_selftest.c", checks=_checks(spec, made, found), totals=_totals(found))
 
 
-def _checks(spec: Spec, found: list[Section]) -> Iterator[str]:
-    for table in tables(spec):
+def _checks(spec: Spec, made: list[Table], found: list[Section]) -> Iterator[str]:
+    for table in made:
         yield _check(table.name, table.kind, table.rows)
     for name, values in name_tables(spec).items():
         yield _check(name, "i7000_name", values)

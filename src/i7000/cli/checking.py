@@ -15,7 +15,7 @@ from i7000.cli.baseline import known_failures, write_baseline
 from i7000.cli.check_options import Settings, Wishes, settings_of
 from i7000.cli.check_screen import Screen
 from i7000.cli.check_stream import ReportStream
-from i7000.cli.keeping import Keeper
+from i7000.cli.keeping import Keeper, broken_off, worse_of
 from i7000.cli.progress import note_estimate
 from i7000.cli.reached import OpenLine, Reached, reach
 from i7000.cli.reached import run as at_port
@@ -144,11 +144,11 @@ class _Checking:
             failure = error
         self._stream.check = None
         settled = self._settle(open_line, one, before)
-        ended = ended or self._keeper.ended(open_line.ending, settled)
+        ended = ended or broken_off(open_line.ending, settled)
         left = self._keeper.left(settled, may_have_changed=one.may_have_changed)
         if failure is not None:
             return self._failed(one, settled, left, failure)
-        code = (left if left == LEFT_CHANGED else ended or left) or self._code(one, settled)
+        code = worse_of(left, ended) or self._code(one, settled)
         self._stream.finish(end_record(one, settled, exit_code=code, complete=not ended))
         self._screen.summary(one, settled)
         self._keeper.report(settled, left)

@@ -21,7 +21,7 @@ from i7000.host.procedures import Snapshot
 from i7000.link.bench import snapshot_name
 from i7000.settings import LineSettings
 
-__all__ = ["Keeper", "home_of"]
+__all__ = ["Keeper", "broken_off", "home_of", "worse_of"]
 
 
 class Keeper:
@@ -71,10 +71,6 @@ class Keeper:
         with suppress(RuntimeError):  # the signal came while something else was printed
             self._printer.note("the module is being restored: press Ctrl-C once more to leave it as it is")
 
-    def ended(self, ending: BreakingEnding, settled: Settled | None) -> int:
-        """Return the exit code if a signal broke off the restoration; 0 if none did."""
-        return 128 + ending.number if settled is None and ending.number else 0
-
     def left(self, settled: Settled | None, *, may_have_changed: bool) -> int:
         """Return the exit code of how the module was left; 0 if it is as before."""
         if settled is None or settled.silent:
@@ -92,6 +88,16 @@ class Keeper:
         if left == LEFT_CHANGED and self._kept:
             words = f"i7000 restore {shlex.quote(self._target)} {shlex.quote(self._kept)}"
             self._printer.error(f"restore it with {words}")
+
+
+def broken_off(ending: BreakingEnding, settled: Settled | None) -> int:
+    """Return the exit code if a signal broke off the restoration; 0 if none did."""
+    return 128 + ending.number if settled is None and ending.number else 0
+
+
+def worse_of(left: int, ended: int) -> int:
+    """Return the exit code of how the module was left, or of the signal that ended the run; 0 if there is neither."""
+    return left if left == LEFT_CHANGED else ended or left
 
 
 def home_of(before: Snapshot, there: Reached) -> Twin:

@@ -11,7 +11,7 @@ from attrs import frozen
 from i7000.cli.asked import LEFT_CHANGED, Asked, OneModule, asked_of
 from i7000.cli.choices import SPOKEN
 from i7000.cli.harm import HarmOptions
-from i7000.cli.keeping import Keeper, home_of
+from i7000.cli.keeping import Keeper, broken_off, home_of, worse_of
 from i7000.cli.options import UNKNOWN, Module
 from i7000.cli.port import AskOptions, LineOptions
 from i7000.cli.reached import OpenLine, Reached, reach
@@ -124,13 +124,13 @@ class _Replaying:
             failure = error
         self._port.budget = None
         settled = self._keeper.settle(open_line, before, home, line, home)
-        ended = ended or self._keeper.ended(open_line.ending, settled)
+        ended = ended or broken_off(open_line.ending, settled)
         left = self._keeper.left(settled, may_have_changed=bool(self._port.writes))
         self._summary(settled)
         self._keeper.report(settled, left)
         if failure is not None:
             return self._failed(failure, left)
-        return (left if left == LEFT_CHANGED else ended or left) or self._code()
+        return worse_of(left, ended) or self._code()
 
     def _failed(self, failure: BaseException, left: int) -> int:
         """Return the exit code of a replay that a guard, this program or its output broke off."""
